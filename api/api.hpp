@@ -18,7 +18,7 @@
 
 namespace tubecut::api {
 
-/// One request as text; nothing of HTTP but its words.
+/// One request as text; of HTTP only its terms.
 struct Call {
   std::string_view method;        // "POST", "GET", ...
   std::string_view path;          // without query, not decoded: known paths need no decoding
@@ -30,23 +30,22 @@ struct Call {
   std::string request_id;  // unique, made by the server
 };
 
-/// What a call runs with besides its text.
+/// The context of a call, in addition to its text.
 struct Context {
   std::stop_token stop;
   std::function<double()> clock;       // monotonic seconds, for stage times; may be empty
   double received = 0.0;               // when the request's first byte came, on that clock; 0: now
   int (*status)(ErrorKind) = nullptr;  // the number printed in a problem's `status`
-  /// Bytes of body this replica takes, where an endpoint takes more; `GET /v1/limits` tells.
+  /// Largest body that this replica takes, if an endpoint takes more; `GET /v1/limits` shows it.
   std::size_t max_body = std::numeric_limits<std::size_t>::max();
-  double budget_s = 0.0;       // CPU of any job here; 0: what its endpoint has by default
-  double call_budget_s = 0.0;  // CPU that this call asked to be held to; 0: as any other job
-  Turns turns = in_order;      // by whom pieces of the job are done that know
-                               // nothing of each other
+  double budget_s = 0.0;       // CPU of any job here; 0: the endpoint's default
+  double call_budget_s = 0.0;  // CPU limit that this call requests; 0: the usual one
+  Turns turns = in_order;      // runs independent tasks of the job
 };
 
-/// A job ends at the latest so many times its budget of CPU after its request came, whatever CPU it
-/// got. A replica works at three jobs per slot at most (slot, lane and one that has outgrown the
-/// lane): each has a third of a CPU, and half a budget may pass in the queue.
+/// A job ends at the latest this many times its CPU budget after its request arrived, even if it
+/// got little CPU. A replica works on at most three jobs per slot (slot, lane and one that has
+/// outgrown the lane): each has a third of a CPU, and half a budget may pass in the queue.
 inline constexpr int kWallPerCpu = 4;
 
 /// Seconds of CPU for a call at a path.
@@ -57,17 +56,17 @@ struct Stage {
   double seconds = 0.0;
 };
 
-/// What the end of a stage is called among a job's events: decoded, validated, computed, verified,
-/// encoded.
+/// Returns the name of the end of a stage among a job's events: decoded, validated, computed,
+/// verified, encoded.
 [[nodiscard]] std::string_view event_of(std::string_view stage);
 
-/// What a log line and the metrics may know of a call: never the geometry.
+/// Facts of a call for a log line and the metrics: never the geometry.
 struct JobFacts {
   std::string id;
   std::string endpoint;               // id in the endpoint table; empty when the path is not in it
-  std::string input_sha256;           // empty when the request was not understood
+  std::string input_sha256;           // empty if the request is not valid
   std::string result_sha256;          // empty for errors
-  std::string body_sha256;            // of the body's bytes, where that was not understood
+  std::string body_sha256;            // hash of the body's bytes, if the request is not valid
   std::string verdict;                // ok | review | reject; empty for errors
   std::vector<std::string> reasons;   // of the verdict
   std::string error_code;             // empty for answers
@@ -92,26 +91,27 @@ inline constexpr std::string_view kVerdictHeader = "Tubecut-Verdict";
 /// bug throws and is the server's to turn into a 500.
 [[nodiscard]] Outcome dispatch(const Call& call, const Context& context);
 
-/// A problem document for what the server itself refuses (429, 503, 413 ...); with a pointer, for a
-/// parameter of the query that it does not take.
+/// Returns a problem document for a request that the server itself refuses (429, 503, 413 ...);
+/// with a pointer, for an unknown query parameter.
 [[nodiscard]] Outcome problem(ErrorCode code, std::string_view detail, std::string_view request_id,
                               const Context& context, std::string_view pointer = {});
 
-/// Ids of the endpoint table: what JobFacts::endpoint can be, unless empty.
+/// Returns the ids of the endpoint table: the possible values of JobFacts::endpoint, unless empty.
 [[nodiscard]] std::vector<std::string_view> endpoint_ids();
 
 /// Largest body, in bytes, that the path takes.
 [[nodiscard]] std::size_t max_body(std::string_view path);
 
-/// An upper bound of the memory that a call at a path takes by its body while it is answered; what
-/// it asks for beside that comes on top (memory.hpp). Of no endpoint's path: that of the costliest.
+/// Upper bound of the memory that a call at a path takes for its body while it is answered; other
+/// memory is added to it (memory.hpp). If the path is not an endpoint's, the bound of the largest
+/// endpoint applies.
 struct CallMemory {
   std::size_t fixed = 0;
   std::size_t per_byte = 0;
 };
 [[nodiscard]] CallMemory call_memory(std::string_view path);
 
-/// The same of a line of a batch, as bytes: by the costliest endpoint that it may name.
+/// Returns the same for a line of a batch, in bytes: that of the largest endpoint that it may name.
 [[nodiscard]] std::size_t line_memory(std::string_view line);
 
 /// The id of the endpoint, or of the batches, at a path; empty for other paths.
@@ -123,16 +123,16 @@ struct FileText {
   std::string json;
 };
 
-/// Puts these, each an object in the form of GET /v1/machines, beside the built-in machines,
-/// instead of those that were there: all of them, or none. Jobs that have begun keep theirs.
-/// Returns the first file at fault and why, or nothing.
+/// Adds these machines, each an object in the form of GET /v1/machines, to the built-in ones, in
+/// place of the previous ones. If one has an error, changes nothing. Running jobs keep theirs.
+/// Returns the first file with an error and the reason, or nothing.
 [[nodiscard]] std::string set_machines(std::span<const FileText> texts);
 /// The same of posts, in the form of GET /v1/posts.
 [[nodiscard]] std::string set_posts(std::span<const FileText> texts);
 
-/// Of all that an answer depends on beside its request: engine, numerics, and every machine's and
-/// post's hash.
-/// Replicas where it differs may answer one request with other bytes.
+/// Returns the hash of everything that an answer depends on in addition to its request: engine,
+/// numerics, and every machine's and post's hash. If replicas differ in it, they may answer one
+/// request with different bytes.
 [[nodiscard]] std::string configuration_sha256();
 
 /// An example the service carries: a request's body that runs.

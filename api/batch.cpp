@@ -45,7 +45,7 @@ std::string read_id(Reader& in) {
   return {};
 }
 
-/// The endpoint's path; empty beside an issue.
+/// Reads the endpoint's path; empty if there is an issue.
 std::string read_endpoint(Reader& in) {
   const auto list = one_of(endpoints(), &Endpoint::id);
   const auto id = in.text("endpoint");
@@ -61,7 +61,7 @@ std::string read_endpoint(Reader& in) {
   return {};
 }
 
-/// The body as the endpoint takes it: what is wrong within is the endpoint's to say.
+/// Reads the body unchanged, because its endpoint checks its content.
 std::string read_body(Reader& in) {
   in.note("body");
   const Json* body = in.find("body");
@@ -72,14 +72,14 @@ std::string read_body(Reader& in) {
   return dump(*body, in.stop());
 }
 
-/// A number as it is printed, a text as it is, true and false; nothing for anything else.
+/// Returns a number as printed, a text unchanged, true and false; nothing for other types.
 std::optional<std::string> option_text(const Json& value) {
   if (const auto* text = value.as<std::string>()) return *text;
   if (value.as<double>() != nullptr || value.as<bool>() != nullptr) return dump(value);
   return std::nullopt;
 }
 
-/// `format` and `options`; what is wrong with their values is the endpoint's to say.
+/// Reads `format` and `options`; the endpoint checks their values.
 std::string read_query(Reader& in) {
   const auto format = in.optional_text("format").value_or("");
   std::vector<std::pair<std::string, std::string>> options;

@@ -21,7 +21,7 @@ constexpr std::string_view kProblemMedia = "application/problem+json";
 
 std::string got_type(const std::string& media) { return "got \"" + media + "\", accepted: "; }
 
-/// One answer or problem, with what is needed to print it.
+/// One answer or problem, with the data to print it.
 class CallRun {
  public:
   CallRun(const Call& call, const Context& context) : call_(call), context_(context) {
@@ -74,7 +74,7 @@ class CallRun {
   Outcome out_;
   double begun_ = 0.0;
   double mark_ = 0.0;
-  std::optional<double> estimate_;  // s of CPU, once it is known what there is to do
+  std::optional<double> estimate_;  // s of CPU, once the work is known
 };
 
 Outcome CallRun::compute(const Endpoint& endpoint) {
@@ -93,7 +93,7 @@ Outcome CallRun::compute(const Endpoint& endpoint) {
   }
 }
 
-/// Says what would be enough.
+/// States a sufficient budget.
 Outcome CallRun::over_budget() {
   Problem out{.code = ErrorCode::over_budget};
   if (estimate_)
@@ -174,7 +174,7 @@ Outcome CallRun::work(const Endpoint& endpoint) {
   return answer(endpoint, common, std::move(std::get<Answer>(reply)), *choice, query);
 }
 
-/// What has happened so far, counted from the request's first byte.
+/// Writes the events until now, in time since the request's first byte.
 void write_events(Writer& w, const Context& context, double begun,
                   const std::vector<Stage>& stages) {
   double at = context.clock && context.received > 0.0 ? begun - context.received : 0.0;

@@ -16,7 +16,8 @@ struct Endpoint {
   std::size_t max_body = 0;
   double budget_s = 0.0;  // of CPU, unless configured
   Reply (*handle)(Reader& in, Run& run) = nullptr;
-  /// The same begun: an answer without what its lines, which are requests, ask for.
+  /// The first part of the same: an answer without the results that its lines, which are requests,
+  /// produce.
   Reply (*begin)(Reader& in, Run& run) = nullptr;
   std::span<const FormatName> formats;
   std::span<const std::string_view> accepts;  // names allowed in `accept`

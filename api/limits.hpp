@@ -4,9 +4,9 @@
 
 namespace tubecut::api {
 
-/// The numbers a request may hold. One table: the reader's checks, `GET /v1/limits` and
-/// openapi.yaml all show it. X(name, value): names carry their unit. Those of pairs, samples and
-/// triples bound what grows worse than a request: core holds to them.
+/// The limits of numbers in a request, in one table for the reader's checks, `GET /v1/limits` and
+/// openapi.yaml. X(name, value): names end in their unit. Core enforces those of pairs, samples and
+/// triples, which bound work that grows faster than the request.
 #define TUBECUT_LIMITS(X)            \
   X(uniform_points_min, 8)           \
   X(uniform_points_max, 20'000)      \
@@ -43,11 +43,11 @@ TUBECUT_LIMITS(X)
 #undef X
 }  // namespace limit
 
-/// Seconds of CPU by default: about twice what the costliest requests found took on one core of the
-/// machine in docs/promises.md, so that what the contract allows is answered there. Catalogues have
-/// the first.
+/// Default seconds of CPU: about twice the time of the most expensive requests found on one core of
+/// the machine in docs/promises.md, so that every permitted request is answered there. Catalogues
+/// have the first.
 inline constexpr double kBudgetS = 2.0;       // 1.0 s: a table of 20 000 points by 64 tubes
-inline constexpr double kLongBudgetS = 30.0;  // 11.4 s: 20 000 mill positions, alone or nested
+inline constexpr double kLongBudgetS = 30.0;  // 11.4 s: 20 000 mill positions, direct or nested
 
 inline constexpr Range kDiameter{.min = limit::diameter_min_mm, .max = limit::diameter_max_mm};
 inline constexpr Range kWall{.min = limit::wall_min_mm, .max = limit::wall_max_mm};

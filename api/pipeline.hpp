@@ -30,8 +30,9 @@ std::span<const FormatName> format_names() {
   return names;
 }
 
-/// An answer as a document. Of `caption` are read what a request says: reference, view, options and
-/// stop. Nothing may be cut from it, a name cannot be spelled, or an option has no use: a problem.
+/// Returns an answer as a document. Reads from `caption` the request's values: reference, view,
+/// options and stop. If the part must not be cut, a name cannot be spelled, or an option is not
+/// supported, returns a problem.
 template <class E>
 tl::expected<std::string, Problem> print_document(const typename E::Spec& spec,
                                                   const typename E::Out& out,
@@ -61,20 +62,20 @@ tl::expected<std::string, Problem> print_document(const typename E::Spec& spec,
 ///   static Spec decode(Reader&);
 ///     types, units, ranges
 ///   static Result<Spec> resolve(Spec, const std::stop_token&);
-///     optional: what only core can tell of the input
+///     optional: checks of the input that only core can make
 ///   static void count(const Spec&, Work&);
-///     what there is to do, for the estimate of its CPU
+///     the work, for the estimate of its CPU
 ///   static Result<Out> compute(const Spec&, const std::stop_token&);  pure core call
 ///   static std::vector<Check> verify(const Spec&, const Out&);
-///     the proof; with a stop token where it may take long
-///     compute, verify and encode take `const Turns&` last where a job has many pieces
+///     the verification; if it may take long, with a stop token
+///     if a job has many pieces, compute, verify and encode take `const Turns&` last
 ///   static std::vector<Warning> warnings(const Spec&, const Out&);
 ///   static std::vector<Measure> measure(const Spec&, const Out&);
 ///   static void encode(const Spec&, const Out&, Writer&);  members of `result`
 ///   static void encode_beside(const Spec&, const Out&, Writer&);
-///     optional: members beside `result`, whose hash does not cover them
+///     optional: members next to `result`, not covered by its hash
 ///   static std::string lines(const Spec&, const std::stop_token&);
-///     optional: what is left to be asked, as lines of a batch
+///     optional: the remaining requests, as lines of a batch
 ///   static const std::vector<Format<Spec, Out>>& formats();
 ///   kId, kPath, kMaxBody, kBudgetS, kAccepts, kChecks
 template <class E>

@@ -17,22 +17,22 @@
 
 namespace tubecut::api {
 
-/// A request as understood and its answer; or why there is none.
+/// A request with defaults applied and its answer; or the problem.
 struct Answer {
   Json request = {};                                  // echo without reference and log
-  std::string result = {};                            // as JSON or CBOR, unless `text` is asked for
+  std::string result = {};                            // as JSON or CBOR, if `text` is empty
   std::string input_sha256 = {}, result_sha256 = {};  // of these two as JSON
   std::vector<Check> checks = {};
   std::vector<Warning> warnings = {};
   std::vector<Measure> measures = {};
   Verdict verdict = {};
-  std::string text = {};                     // in another format, if one was asked for
-  std::string lines = {};                    // what is left to be asked, as lines of a batch
-  std::function<void(Writer&)> beside = {};  // members beside `result`, which its hash leaves out
+  std::string text = {};                     // in another format, if one is requested
+  std::string lines = {};                    // the remaining requests, as lines of a batch
+  std::function<void(Writer&)> beside = {};  // members next to `result`, not covered by its hash
 };
 using Reply = std::variant<Answer, Problem>;
 
-/// What the pipeline runs with.
+/// The context of the pipeline.
 struct Run {
   std::stop_token stop = {};
   Encoding encoding = Encoding::json;
@@ -43,8 +43,8 @@ struct Run {
   std::function<void(std::string_view)> understood = {};  // called with the input's sha256
   std::function<void(const Answer&)> judged = {};         // called when the verdict is known
   std::function<void()> forget_body = [] {};              // called when all of it is read
-  std::function<void(const Work&)> foresee = {};  // called when it is known what there is to do
-  Turns turns = in_order;                         // who does what knows nothing of each other
+  std::function<void(const Work&)> foresee = {};          // called when the work is known
+  Turns turns = in_order;                                 // runs independent tasks
 };
 
 }  // namespace tubecut::api

@@ -9,15 +9,15 @@
 
 namespace tubecut::api {
 
-/// Thrown in the api where a job has to end; `dispatch` answers it by `over_budget`. In core a stop
-/// comes back as an error.
+/// Thrown in the api if a job has to end; `dispatch` answers it by `over_budget`. In core a stop is
+/// returned as an error.
 struct Stopped {};
 
 inline void ask(const std::stop_token& stop) {
   if (stop.stop_requested()) throw Stopped{};
 }
 
-/// Asks now and then, for loops whose turns take much less than a microsecond.
+/// Checks for a stop now and then, for loops whose iterations take much less than a microsecond.
 class Pace {
  public:
   explicit Pace(std::stop_token stop = {}) : stop_(std::move(stop)) {}
@@ -47,7 +47,7 @@ inline void make_room(std::string& out, std::size_t more, const std::stop_token&
   out = std::move(larger);
 }
 
-/// Appends in parts, whatever there is to append.
+/// Appends in parts, with checks for a stop between them.
 inline void append(std::string& out, std::string_view bytes, const std::stop_token& stop) {
   make_room(out, bytes.size(), stop);
   for (; !bytes.empty(); bytes.remove_prefix(std::min(kBytesAtOnce, bytes.size()))) {

@@ -52,8 +52,9 @@ bool is_wall_in_inches(double diameter, double wall) {
   return sold(wall * kMmPerInch) && !sold(wall);
 }
 
-/// A size sold in inches, of which the same number in mm is none. Small tubes of whole millimetres
-/// are ordinary, though 14 to 48 inches are sold too: there the wall has to say it.
+/// Returns whether the size is sold in inches and the same number in mm is not a size. Small tubes
+/// of whole millimetres are ordinary, although 14 to 48 inches are sold too, so for those the wall
+/// decides.
 bool is_size_in_inches(double diameter, const double* wall) {
   if (!is_sold(diameter * kMmPerInch) || is_sold(diameter)) return false;
   return diameter != std::floor(diameter) ||
@@ -65,7 +66,7 @@ bool is_near_multiple(double value, double of, double relative) {
   return nearest > 0.0 && std::abs(value - nearest) <= relative * nearest;
 }
 
-/// What its last digit counts, as it is written in the fewest digits that read back the same.
+/// Returns the unit of its last digit, in the fewest digits that read back the same.
 double last_digit(double value) {
   const auto text = shown(value);
   const auto e = text.find('e');
@@ -77,8 +78,9 @@ double last_digit(double value) {
   return std::pow(10.0, exponent - decimals);
 }
 
-/// People write an angle in radians rounded or cut off, however many digits they give: 1.5708 is
-/// 90 deg. A number that was computed has all its digits, and so lies beside every round angle.
+/// Returns whether the number is an angle in radians as people write it, rounded or cut off at any
+/// number of digits: 1.5708 is 90 deg. A computed number has all its digits, so it misses every
+/// round angle.
 bool is_written_of(double value, double of_deg) {
   const double nearest = of_deg * std::floor(degrees_of(value) / of_deg + 0.5);
   return std::abs(value - nearest * std::numbers::pi / 180.0) <= last_digit(value) + kLastBits;
@@ -93,7 +95,8 @@ bool is_round_angle_in_radians(double value) {
   return round && degrees <= 360.0 && size != std::floor(size);
 }
 
-/// Fields whose angles people give in radians by mistake; those of a torch are as often small.
+/// Returns whether people give this field's angle in radians by mistake; a torch's angles are often
+/// as small.
 bool is_suspected_angle(std::string_view name) {
   static constexpr std::array<std::string_view, 5> kNames{
       "inclination_deg", "clocking_deg", "bend_deg", "half_angle_deg", "angle_deg"};
@@ -114,7 +117,7 @@ std::optional<double> diameter_of(const Json& tube) {
   return size == nullptr ? std::nullopt : std::optional(size->outer_diameter);
 }
 
-/// Length of a member given by its two ends; negative where there are none.
+/// Returns the length of a member given by its two ends; negative if it has no ends.
 double distance_of_ends(const Json& member) {
   const auto* start = member.find("start_mm");
   const auto* end = member.find("end_mm");
@@ -130,7 +133,7 @@ double distance_of_ends(const Json& member) {
   return std::sqrt(sum);
 }
 
-/// Metric lengths written in inches: 300 mm as 11.811. One alone may be chance.
+/// Metric lengths written in inches: 300 mm as 11.811. A single one may be chance.
 class MetricInInches {
  public:
   void look(double value, const std::string& path) {
@@ -149,8 +152,8 @@ class MetricInInches {
       different_.push_back(mm);
   }
 
-  /// A few lengths that stay odd, as defaults in mm and what was calculated do, do not speak
-  /// against it; where they are many it takes one more.
+  /// Returns whether the lengths look like inches. A few odd lengths, such as defaults in mm and
+  /// computed values, do not count against it; if they are many, one more match is required.
   [[nodiscard]] bool suspected() const {
     const std::size_t more = kEnough * others_ > alike_ ? 1 : 0;
     return different_.size() >= kEnough + more && others_ <= alike_;
@@ -271,8 +274,8 @@ std::string other_unit_hint(double value, std::string_view unit, double min, dou
   std::string out;
   for (const auto& one : kUnits) {
     const double meant = value * one.first;
-    // What bounds a number that is too small may be in the same wrong unit, as a wall by its
-    // radius.
+    // the bound of a number that is too small may be in the same wrong unit, such as a wall's by
+    // its radius
     if (!(value < min ? meant >= min && meant <= max * one.first : within(meant))) continue;
     if (is_sold(meant)) return "; were it " + says(one);
     out += (out.empty() ? "; were it " : ", or ") + says(one);

@@ -42,7 +42,7 @@ std::vector<std::string> without(const std::vector<std::string>& texts,
   return out;
 }
 
-/// Is a limit of this name the least that is accepted, or the most?
+/// Returns whether a limit of this name is a minimum.
 bool is_least(std::string_view name) { return name.starts_with("min_"); }
 
 constexpr std::string_view kAbove = " > ", kBelow = " < ";
@@ -122,7 +122,7 @@ std::vector<std::string> verdict_lines(const Verdict& verdict, VerdictRoom room)
 std::string verdict_in_short(const Verdict& verdict) {
   auto reasons = each_once(verdict.reasons);
   std::ranges::stable_partition(reasons, [](const std::string& reason) {
-    return of_a_limit(reason);  // what it is rejected for goes first
+    return of_a_limit(reason);  // the reasons for rejection come first
   });
   const std::string out(verdict.status);
   return reasons.empty() ? out : out + ": " + in_words(joined(reasons));
@@ -135,7 +135,7 @@ std::optional<Problem> refuse_to_cut(const Verdict& verdict, const FormatName& f
     return Problem{.code = ErrorCode::comparison_only,
                    .detail = "a machine would work by a file of format " + std::string(format.name),
                    .issues = {}};
-  if (!options.torch || format.is_bundle()) return std::nullopt;  // each part by itself
+  if (!options.torch || format.is_bundle()) return std::nullopt;  // each part separately
   if (verdict.status == "reject") {
     Problem out{.code = ErrorCode::rejected,
                 .detail = "The verdict is reject: " + joined(each_once(verdict.reasons)),

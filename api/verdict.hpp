@@ -14,7 +14,7 @@ struct FormatOptions;
 struct Json;
 struct Problem;
 
-/// What is to be thought of an answer.
+/// The service's classification of an answer.
 struct Verdict {
   std::string_view status = "ok";          // ok, review, reject
   std::vector<std::string> reasons = {};   // as in the answer
@@ -24,40 +24,40 @@ struct Verdict {
     std::string_view name;  // as in `accept`
     double value = 0.0, limit = 0.0;
   };
-  std::vector<Excess> excess = {};  // what it is rejected for
+  std::vector<Excess> excess = {};  // the reasons for rejection
 };
 
-/// What an answer measures of itself, to be held against the request's own `accept`.
+/// A measured value of an answer, to compare with the request's own `accept`.
 struct Measure {
   std::string_view name;  // as in `accept`, for example "max_b_deg"
   double value = 0.0;
 };
 
-/// `reject` where a measure is above what is accepted, or below the least of a limit called
-/// `min_...`, else `review` where a warning is of severity
-/// `cut`, else `ok`. `request`: as it was understood, for the warnings' pointers.
+/// Returns `reject` if a measure exceeds its limit, or is below a limit called `min_...`; else
+/// `review` if a warning has severity `cut`; else `ok`. `request`: with defaults applied, for the
+/// warnings' pointers.
 [[nodiscard]] Verdict judge(const std::vector<Warning>& warnings, const Json& request,
                             const std::vector<Measure>& measures,
                             const std::vector<Measure>& accepted);
 
-/// How much of a verdict a file has room for.
+/// Maximum size of a verdict in a file.
 struct VerdictRoom {
   std::size_t width = 100;    // characters a line; longer ones go on after "... "
   std::size_t warnings = 40;  // of more, the rest are counted
   bool plain = false;         // in plain words: no codes, no names on the wire
 };
 
-/// The lines that stand in the head of every file, whatever its format: status, reasons, warnings
-/// of severity `cut`. Not escaped: the text may be a client's.
+/// Returns the lines for the head of every file, in any format: status, reasons, warnings of
+/// severity `cut`. Not escaped: the text may be a client's.
 [[nodiscard]] std::vector<std::string> verdict_lines(const Verdict& verdict, VerdictRoom room = {});
 
 /// Status and reasons, each once: "review: free_end, standoff".
 [[nodiscard]] std::string verdict_in_short(const Verdict& verdict);
 
-/// Why this answer is not printed in a format by which a machine works: it is for comparison only;
-/// or, where the torch is to be lit, its verdict is `reject` (`rejected`), or `review` and the
-/// codes acknowledged are not those of its warnings (`not_acknowledged`, which lists those that
-/// lack and those that are not there).
+/// Returns the reason why this answer is not printed in a machine format: it is for comparison
+/// only; or, if the torch is lit, its verdict is `reject` (`rejected`), or `review` and the
+/// acknowledged codes differ from its warnings (`not_acknowledged`, which lists the missing and the
+/// surplus ones).
 [[nodiscard]] std::optional<Problem> refuse_to_cut(const Verdict& verdict, const FormatName& format,
                                                    const FormatOptions& options);
 

@@ -16,7 +16,7 @@
 
 namespace tubecut::api {
 
-/// A request of endpoint `E` read, computed, proved and judged; not encoded yet.
+/// A request of endpoint `E` read, computed, verified and classified, but not encoded yet.
 template <class E>
 struct Worked {
   typename E::Spec spec;
@@ -46,7 +46,8 @@ Result<typename E::Out> computed(const typename E::Spec& spec, const Run& run) {
     return E::compute(spec, run.stop);
 }
 
-/// The checks of a result. Asks `stop`, since what a stopped proof found may not be all.
+/// Returns the checks of a result. Checks `stop`, because a cancelled verification may be
+/// incomplete.
 template <class E>
 std::vector<Check> prove(const typename E::Spec& spec, const typename E::Out& out, const Run& run) {
   const auto& stop = run.stop;
@@ -95,7 +96,7 @@ tl::expected<Worked<E>, Problem> worked(Reader& in, Run& run) {
   ask(run.stop);
   auto out = computed<E>(spec, run);
   run.stage("compute");
-  ask(run.stop);  // what it found may not be all
+  ask(run.stop);  // a cancelled result may be incomplete
   if (!out) return of_core(out.error());
   answer.checks = prove<E>(spec, *out, run);
   run.stage("verify");

@@ -20,7 +20,7 @@ struct Embedded {
 
 struct Context;
 
-/// A catalogue that a GET asks for (`/v1/errors`, `/openapi.yaml`, ...).
+/// A catalogue that a GET returns (`/v1/errors`, `/openapi.yaml`, ...).
 struct Page {
   std::string_view path;
   std::string_view content_type;

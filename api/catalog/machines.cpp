@@ -166,7 +166,7 @@ const ShelfMachine* find(const Shelf& all, std::string_view name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-/// Reads `machine_sha256` and holds it against what the request's machine is.
+/// Reads `machine_sha256` and compares it with the request's machine.
 void read_pin(Reader& in, const std::string& sha256) {
   const auto pin = in.optional_text("machine_sha256", 64);
   const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
@@ -195,7 +195,7 @@ motion::Machine decode_with_process(Reader& in, std::optional<Process>& process)
   return out;
 }
 
-/// Adds the machine of a JSON text; returns what is wrong with it, or nothing.
+/// Adds the machine of a JSON text; returns an error text, or an empty text.
 std::string add_machine(std::string_view json, Shelf& all) {
   const auto body = parse(json);
   if (!body) return body.error().reason + " at byte " + std::to_string(body.error().offset);

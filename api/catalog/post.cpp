@@ -26,7 +26,7 @@ std::string feed_word(double feed) {
   return fixed(std::max(feed, kLeast), decimals);
 }
 
-/// So many decimals and no zeros behind them.
+/// Returns the number with `decimals` decimals and no trailing zeros.
 std::string inches(double value, int decimals) {
   auto out = fixed(value, decimals);
   out.erase(out.find_last_not_of('0') + 1);
@@ -45,7 +45,7 @@ std::optional<Slot> next_slot(std::string_view line, std::size_t from) {
   return Slot{begin, end, line.substr(begin + 1, end - begin - 1)};
 }
 
-/// What is wrong with a line of a program, said at its pointer.
+/// Checks a line of a program and reports errors at its pointer.
 void check_line(Reader& in, const std::string& pointer, const std::string& line,
                 const Names& names) {
   std::size_t braces = 0;
@@ -109,7 +109,7 @@ std::string read_line(Reader& in, std::string_view name, const Names& names,
   return out;
 }
 
-/// Nothing that gcode_text leaves in a client's text may end a comment.
+/// Reads the end of a comment, which must not be possible in the output of gcode_text.
 std::string read_comment_end(Reader& in) {
   in.note("comment_end");
   if (!in.has("comment_end")) return {};
@@ -154,7 +154,8 @@ std::optional<std::string> read_file_name(Reader& in) {
   return out;
 }
 
-/// Millimetres unless it is said; absent it is not echoed, and the document stays as it was sent.
+/// Reads the units, with millimetres as default; if absent, they are not echoed, so the document
+/// stays as it was sent.
 PostUnits read_units(Reader& in) {
   in.note("units");
   return in.has("units") ? in.choice("units", PostUnits::mm) : PostUnits::mm;

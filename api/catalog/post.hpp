@@ -15,7 +15,7 @@
 
 namespace tubecut::api {
 
-/// What a program is: blocks in a control's words, or the places of both edges as JSON.
+/// Kind of a program: blocks in a control's syntax, or the positions of both edges as JSON.
 enum class PostKind { blocks, point_pairs };
 inline constexpr std::string_view kPointPairsMedia = "application/x-point-pairs+json";
 
@@ -30,10 +30,11 @@ struct Post {
   std::optional<std::string> file_name;  // a line of file_name.hpp's values
   std::string comment_begin, comment_end;
   bool comment_upper_case = false;
-  int block_numbers = 0;                  // from one block to the next; 0: none
-  std::optional<std::string> of_control;  // whose heights and delay of the pierce are; else ours
+  int block_numbers = 0;                  // step between blocks; 0: no numbers
+  std::optional<std::string> of_control;  // the control that sets heights and delay of the pierce;
+                                          // otherwise ours
   Lines begin, speed, modes, tool, torch_on, torch_off, cut_begin, cut_end, end;
-  Lines mark_on, mark_off;  // none: the control has no tool that marks
+  Lines mark_on, mark_off;  // empty: the control has no marking tool
   std::string rapid, dwell, cut_move, timed_move;
   std::array<std::optional<PostAxis>, kPostRoles.size()> axes;
 
@@ -56,9 +57,11 @@ struct Post {
   [[nodiscard]] std::string speed_word(double mm_min) const;
   [[nodiscard]] std::string length_word(double mm) const;
   [[nodiscard]] std::string way_feed(double units_per_minute) const;
-  /// A comment line; what is a client's passes gcode_text, which leaves nothing that ends one.
+  /// Returns a comment line; client text must pass gcode_text, which removes everything that ends
+  /// one.
   [[nodiscard]] std::string comment(std::string_view text) const;
-  /// The blocks of a program numbered, where the post has that: all but comments and `begin`.
+  /// Returns the blocks of a program numbered, if the post numbers them: all except comments and
+  /// `begin`.
   [[nodiscard]] std::string numbered(std::string program, const std::stop_token& stop) const;
 };
 
@@ -66,13 +69,13 @@ struct Post {
 struct AxisMove {
   char letter = 'X';
   bool turns = false;
-  double way = 0.0;  // as far as its words tell, mm or deg
+  double way = 0.0;  // distance as written in its words, mm or deg
 };
 
 /// Whether a line's values need them.
 [[nodiscard]] bool feeds_by_axes(std::string_view line);
-/// Feeds of a move that takes so long, 1/min. Of the axes that go straight together, mm/min along
-/// their path; where none does, of those that turn, deg/min.
+/// Returns the feed of a move of that time, 1/min: mm/min along the path of the linear axes that
+/// move; if no linear axis moves, deg/min of the rotary ones.
 [[nodiscard]] std::string linear_feed(const std::vector<AxisMove>& axes, double per_minute);
 /// Of each axis that moves, behind F and its letter: "FX300.000 FA1200.000".
 [[nodiscard]] std::string axes_feeds(const std::vector<AxisMove>& axes, double per_minute);
@@ -84,8 +87,8 @@ using PostValues = std::initializer_list<std::pair<std::string_view, std::string
 [[nodiscard]] std::string post_line(std::string_view line, const PostValues& values = {});
 [[nodiscard]] std::string post_lines(const Post::Lines& lines, const PostValues& values = {});
 
-/// `in` stands on an object in the form of GET /v1/posts. Names in braces that a line does not
-/// have, letters twice and values that a line must have are issues at their member.
+/// Decodes an object in the form of GET /v1/posts at `in`. Unknown names in braces of a line,
+/// duplicate letters and missing values of a line are issues at their member.
 [[nodiscard]] Post decode_post(Reader& in);
 
 }  // namespace tubecut::api

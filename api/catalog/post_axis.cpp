@@ -13,7 +13,8 @@ namespace {
 constexpr double kTurn = 360.0;  // deg
 constexpr std::string_view kLetters = "ABCUVWXYZ";
 
-/// The least decimals of a word: 0.01 mm and 0.01 deg, and what is as fine in other units.
+/// Returns the minimum decimals of a word: 0.01 mm and 0.01 deg, or the same resolution in other
+/// units.
 int least_decimals(PostUnits units, bool turns, TurnUnit turn) {
   if (turns && turn == TurnUnit::revolution) return 5;
   const bool inch = turns ? turn == TurnUnit::inch_girth : units == PostUnits::inch;
@@ -118,7 +119,7 @@ std::string PostAxis::zero() const {
 }
 
 std::string PostAxis::shown(double value) const {
-  constexpr int kShown = 3;  // of mm and deg; what is coarser has as many digits more
+  constexpr int kShown = 3;  // of mm and deg; coarser units have more digits
   int more = 0;
   for (double s = scale; s < 0.1 && more < 3; s *= 10.0) ++more;
   return std::string(1, letter) + " " + fixed(counted(value), kShown + more);

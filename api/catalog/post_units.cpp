@@ -10,7 +10,8 @@ namespace {
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/// What ends a run that begins here and holds no words; empty where none begins. `;` has no end.
+/// Returns the end mark of a run that begins here and contains no words; empty if no run begins.
+/// `;` has no end.
 struct Quoted {
   std::string_view begin, end;
 };

@@ -9,10 +9,10 @@
 
 namespace tubecut::api {
 
-/// What a control counts lengths in: coordinates, heights and feeds.
+/// Unit of a control's lengths: coordinates, heights and feeds.
 enum class PostUnits { mm, inch };
 
-/// What a control counts the turn of the tube in. A girth is a length along the circumference.
+/// Unit of a control's tube rotation. A girth is a length along the circumference.
 enum class TurnUnit { deg, mm_girth, inch_girth, revolution };
 
 inline constexpr double kMmPerInch = 25.4;
@@ -25,7 +25,7 @@ struct UnitWord {
 
 /// Finds the first word in a line that makes a control count in other units than `units`: G20, G70,
 /// G700 (inch) and G21, G71, G710 (mm) in any spelling ("g 020", "N10G20"), and the end of
-/// Heidenhain's BEGIN PGM. Comments, texts in quotes, names in <> and values in braces are no
+/// Heidenhain's BEGIN PGM. Comments, texts in quotes, names in <> and values in braces are not
 /// words.
 ///
 /// Example  other_units("G20 G40 G90", "(", ")", PostUnits::mm)->word is "G20".

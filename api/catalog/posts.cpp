@@ -28,7 +28,7 @@ std::string shown(const FieldIssue& issue) {
   return issue.hint.empty() ? out : out + " (" + issue.hint + ")";
 }
 
-/// Adds the post of a JSON text; returns what is wrong with it, or nothing.
+/// Adds the post of a JSON text; returns an error text, or an empty text.
 std::string add_post(std::string_view json, PostShelf& all) {
   const auto body = parse(json);
   if (!body) return body.error().reason + " at byte " + std::to_string(body.error().offset);

@@ -14,19 +14,19 @@ namespace tubecut::api {
 /// A post that requests can name, as its file has it.
 struct ShelfPost {
   Post post;
-  Json document;       // as understood, with its defaults
+  Json document;       // with defaults applied
   std::string sha256;  // over that
 };
 
 using PostShelf = std::vector<ShelfPost>;
 
-/// The shipped posts and those of `set_posts`, in that order, as they are now; whoever keeps a
-/// shelf keeps what it holds.
+/// Returns the shipped posts and those of `set_posts`, in that order, as they are now; a kept shelf
+/// keeps its content.
 [[nodiscard]] std::shared_ptr<const PostShelf> posts();
 
-/// The one of that name; empty where there is none.
+/// Returns the post of that name; nullptr if there is no such post.
 [[nodiscard]] std::shared_ptr<const Post> find_post(std::string_view name);
-/// A post that stands in a request, as JSON; issues at `pointer` and below.
+/// Reads a post in a request, as JSON; issues at `pointer` and below.
 [[nodiscard]] std::shared_ptr<const Post> inline_post(std::string_view json,
                                                       const std::string& pointer,
                                                       std::vector<FieldIssue>& issues);

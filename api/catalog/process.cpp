@@ -60,7 +60,8 @@ void refuse_choice(Reader& in, ErrorCode code, std::string_view name, const std:
            in.find(name));
 }
 
-/// What a program takes of this machine in this material; issues where it has nothing of it.
+/// Returns the values that a program takes from this machine for this material; issues if it has no
+/// such values.
 std::optional<MachineProcess> process_of(Reader& in, const std::string& machine,
                                          const std::optional<std::string>& material) {
   const auto all = machines();

@@ -10,7 +10,7 @@
 
 namespace tubecut::api {
 
-// What a program along torch lines may be told, by a request's query or by a machine's table.
+// Settings of a program along torch lines, from a request's query or a machine's table.
 inline constexpr Range kTorchSpeed{.min = 1.0, .max = 60'000.0};        // mm/min
 inline constexpr Range kLeadRadius{.min = 0.0, .max = 1'000.0};         // mm
 inline constexpr Range kTipHeight{.min = 0.0, .max = 100.0};            // mm, off the wall
@@ -19,7 +19,7 @@ inline constexpr Range kTipClearance{.min = 1.0, .max = 1'000.0};       // mm, o
 inline constexpr Range kTabWidth{.min = 0.5, .max = 20.0};              // mm
 inline constexpr Range kTorchPivotLength{.min = 0.0, .max = 10'000.0};  // mm
 
-/// What a torch needs to cut a material up to a thickness: a row of its cut chart.
+/// Torch settings to cut a material up to a thickness: a row of its cut chart.
 struct ProcessRow {
   std::string material;
   double metal = 0.0;  // mm, the most that the beam goes through
@@ -34,16 +34,16 @@ struct Process {
   std::vector<ProcessRow> rows = {};
 };
 
-/// `in` stands on the member `process` of a machine.
+/// Decodes the member `process` of a machine at `in`.
 /// Errors  duplicate_id: two rows of a material with one thickness.
 [[nodiscard]] Process decode_process(Reader& in);
 void encode_process(const Process& process, Writer& w);
 [[nodiscard]] std::string process_sha256(const Process& process);
 
-/// What a built-in machine has, every number an assumption.
+/// Returns the table of a built-in machine, in which every number is an assumption.
 [[nodiscard]] Process assumed_process();
 
-/// What a program takes from a machine wherever the request says nothing of it.
+/// Values that a program takes from a machine if the request does not set them.
 struct MachineProcess {
   std::string machine, sha256;
   std::optional<double> pivot_length = {};  // of a torch that swings about a pivot
@@ -51,7 +51,7 @@ struct MachineProcess {
   std::vector<ProcessRow> rows = {};  // of one material
 };
 
-/// `machine` and `material` of a query; nothing unless both are there.
+/// Reads `machine` and `material` of a query; nothing unless both are present.
 [[nodiscard]] std::shared_ptr<const MachineProcess> read_machine_process(Reader& in);
 
 }  // namespace tubecut::api

@@ -292,7 +292,7 @@ std::vector<TubeSize> all_sizes() {
   return out;
 }
 
-/// The nominal diameters of ISO 6708 beside those of ASME B36.10M.
+/// The nominal diameters of ISO 6708 and of ASME B36.10M.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 36> kNominalDiameters{
     {{"6", "1/8"},  {"8", "1/4"},    {"10", "3/8"},   {"15", "1/2"},  {"20", "3/4"},
      {"25", "1"},   {"32", "1-1/4"}, {"40", "1-1/2"}, {"50", "2"},    {"65", "2-1/2"},

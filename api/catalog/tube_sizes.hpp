@@ -21,8 +21,8 @@ struct TubeSize {
 /// The size of that very name, or nullptr.
 [[nodiscard]] const TubeSize* find_tube_size(std::string_view name);
 
-/// For a name that is none: the sizes it begins, or the one most like it, a DN or inches read as
-/// their NPS; else where all names are.
+/// Returns a hint for an unknown name: the sizes that begin with it, or the most similar one, with
+/// a DN or inches read as their NPS; else the list of all names.
 [[nodiscard]] std::string tube_size_hint(std::string_view name);
 
 }  // namespace tubecut::api

@@ -62,7 +62,7 @@ constexpr std::array kRules{
     Option<DecodeGroove>{"square", [](Reader&) -> GrooveRule { return bevel::SquareCut{}; }},
     Option<DecodeGroove>{"zones", [](Reader& in) -> GrooveRule { return decode_zones(in); }}};
 
-/// What the swing axis B of a machine follows at a cutting speed.
+/// Decodes the limits of a machine's swing axis B at a cutting speed.
 bevel::BevelRateLimits decode_swing(Reader& in) {
   const auto machine = decode_machine_choice(in, "machine");
   const double speed = in.number("speed_mm_min", {.min = 1.0, .max = 60'000.0}) / 60.0;
@@ -147,7 +147,7 @@ void encode_events(const bevel::Table& out, Writer& w) {
   });
 }
 
-/// Steps of the smoother's input, and what the published method did about them.
+/// Encodes the steps of the smoother's input, and the published method's treatment of them.
 void encode_steps(const bevel::Table& out, Writer& w) {
   w.array("mutations", out.mutations, [](Writer& each, const bevel::Table::Step& m) {
     each.object([&](Writer& o) {

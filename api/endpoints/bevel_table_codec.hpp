@@ -15,8 +15,8 @@
 
 namespace tubecut::api {
 
-/// What a table is asked for beside its joint and its sampling: groove, contact, kerf, torch,
-/// smoothing. What a preset chooses may be absent.
+/// Decodes the options of a table, in addition to its joint and sampling: groove, contact, kerf,
+/// torch, smoothing. Fields that a preset sets may be absent.
 void decode_table_options(Reader& in, Preset preset, bevel::TableSpec& out);
 
 inline constexpr Range kKerf{.min = 0.0, .max = 50.0};  // mm
@@ -59,8 +59,8 @@ inline constexpr std::array<CheckLimit, 16> kTableChecks{{
     {"left_stated", "max(5e-3, 0.02 left_mm)", "mm"},
 }};
 
-/// A bevel table asked for by its joint, given directly or as an end of a node; `resolve` fills
-/// in target and partners.
+/// A request for a bevel table whose joint is given directly or as an end of a node; `resolve`
+/// fills in target and partners.
 struct BevelTableRequest : bevel::TableSpec {
   JointSource source;
   Preset preset = Preset::none;
@@ -70,20 +70,20 @@ struct BevelTableRequest : bevel::TableSpec {
 /// How an end is cut: root, groove, contact, smoothing and the like. `whole`: also dihedral, kerf
 /// and torch, which a part has once.
 void decode_cut(Reader& in, bool whole, Preset preset, bevel::TableSpec& out);
-/// Refuses what is not offered: which surface holds the root, which one touches, which angle
-/// counts.
+/// Refuses unsupported combinations: surface of the root, touching surface, counted angle.
 void check_combination(const bevel::TableSpec& s, Reader& in);
 void decode_torch_and_kerf(Reader& in, Preset preset, bevel::TableSpec& out);
 
-/// A table's events, mutations and windows; where the torch binds.
+/// Encodes a table's events, mutations and windows, and the intervals in which the torch range
+/// binds.
 void encode_bevel_lists(const bevel::Table& table, Writer& w);
 void encode_torch_binds(const bevel::Table& table, Writer& w);
 /// The deepest place of the finished surface in a partner.
 void encode_penetration(const bevel::Penetration& deepest, Writer& w);
-/// What the beam takes from the finished part and leaves on it.
+/// Encodes the depth that the beam cuts into the finished part, and the metal that it leaves.
 void encode_torch_line(const bevel::BeamProof& proof, Writer& w);
 
-/// A /v1/bevel-tables request, also where it is nested in another.
+/// Decodes a /v1/bevel-tables request, also if it is nested in another.
 [[nodiscard]] BevelTableRequest decode_bevel_table_request(Reader& in);
 
 /// Errors  those of the node; members as in the request.

@@ -32,7 +32,7 @@ groove::RootFace decode_root_face(Reader& in) {
 groove::Filler decode_filler(Reader& in) {
   const auto which = in.exactly_one({"area_mm2", "height_mm"});
   if (!which) {
-    in.note("at_deg");  // whichever it is to be
+    in.note("at_deg");  // with either choice
     return groove::FillerArea{};
   }
   if (which == 0) return groove::FillerArea{.area = in.number("area_mm2", kArea)};

@@ -6,9 +6,9 @@
 
 namespace tubecut::api {
 
-/// A /v1/grooves request, also where it is nested in another.
+/// Decodes a /v1/grooves request, also if it is nested in another.
 [[nodiscard]] groove::GrooveSpec decode_groove_request(Reader& in);
-/// A /v1/mill-paths request, also where it is nested in another.
+/// Decodes a /v1/mill-paths request, also if it is nested in another.
 [[nodiscard]] groove::MillPathSpec decode_mill_path_request(Reader& in);
 
 }  // namespace tubecut::api

@@ -14,7 +14,7 @@ struct HoleBranch {
   double wall = 0.0;
   std::string name = {};
 };
-/// The branch of a hole: its size and where it stands.
+/// Decodes the branch of a hole: its size and position.
 [[nodiscard]] HoleBranch decode_hole_branch(Reader& in);
 
 /// `kind`, `gap_mm`, `depth_mm` and `plane`. A set-in branch goes less deep than the chord's
@@ -22,7 +22,7 @@ struct HoleBranch {
 [[nodiscard]] joint::Joint decode_joint_kind(Reader& in, double chord_radius, bool of_members);
 void encode_joint_kind(const joint::Joint& joint, Writer& o);
 
-/// `joint`, `groove` and `tilt`; without a `joint` where the members state it.
+/// Decodes `joint`, `groove` and `tilt`; without a `joint` if the members state it.
 void decode_hole_cut(Reader& in, double chord_radius, const joint::Joint* stated, Preset preset,
                      bevel::HoleSpec& out);
 

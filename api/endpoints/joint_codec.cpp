@@ -49,7 +49,7 @@ joint::Partner decode_plane(Reader& in) {
 
 joint::Partner decode_rectangular_tube(Reader& in) {
   joint::RectangularTubeCutter out{.width = in.number("width_mm", kPlate)};
-  // A plate is thin one way only; what is narrow both ways is likely in another unit.
+  // A plate is thin in one direction only; if both are small, the unit is probably another.
   const bool thin = in.understood("width_mm") && out.width < kDiameter.min;
   out.height = in.number("height_mm", thin ? kDiameter : kPlate);
   const bool sized = in.understood("width_mm") && in.understood("height_mm");
@@ -93,7 +93,7 @@ constexpr std::array kKinds{
     Option<Decode>{joint::ElbowCutter::kName, decode_elbow}};
 static_assert(kKinds.size() == std::variant_size_v<joint::Cutter>, "every kind is read");
 
-/// In the world there is no target to give angles to.
+/// In world coordinates there is no target as reference of angles.
 constexpr auto kWorldKinds = [] {
   auto out = kKinds;
   out[0].value = decode_axis_tube;

@@ -20,10 +20,10 @@ struct TubeSection {
 /// `outer_diameter_mm` and `wall_mm` (if `with_wall`), or `size` by name.
 [[nodiscard]] TubeSection decode_tube_section(Reader& in, bool with_wall);
 
-/// Fields that every request about a joint shares.
+/// Fields that every request about a joint has in common.
 [[nodiscard]] joint::Target decode_target(Reader& in);
 [[nodiscard]] std::vector<joint::Partner> decode_cutters(Reader& in);
-/// One placed in the world; a tube by its axis alone.
+/// A cutter in world coordinates; a tube only by its axis.
 struct WorldCutter {
   joint::Partner partner;
   std::string name;
@@ -31,7 +31,7 @@ struct WorldCutter {
 [[nodiscard]] WorldCutter decode_world_cutter(Reader& in);
 [[nodiscard]] joint::Sampling decode_sampling(Reader& in);
 
-/// What proves a curve.
+/// Checks that verify a curve.
 inline constexpr std::array<CheckLimit, 4> kProfileChecks{{
     {"on_cutter", "1e-12 max(radius + rho, |z|)", "mm"},
     {"none_above", "1e-9 max(radius + rho, |z|)", "mm"},

@@ -30,7 +30,7 @@ struct ProbedSpec : groove::MillPathSpec {
   std::vector<groove::ProbePoint> probe;
 };
 struct ProbedPath : groove::MillPath {
-  std::optional<groove::Probe> seen;  // where it is asked
+  std::optional<groove::Probe> seen;  // if requested
 };
 
 std::vector<groove::ProbePoint> decode_probe(Reader& in) {

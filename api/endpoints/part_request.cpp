@@ -62,7 +62,7 @@ DatumChoice decode_datum(Reader& in, Datum fallback, bool has_up) {
   return out;
 }
 
-/// What a part has once: sampling, kerf and torch.
+/// Decodes the values that a part has once: sampling, kerf and torch.
 void decode_once(Reader& in, Preset preset, bevel::TableSpec& out) {
   out.sampling = decode_sampling(in);
   decode_torch_and_kerf(in, preset, out);
@@ -148,7 +148,7 @@ joint::Joint decode_end_joint(Reader& in, const joint::Partner* partner) {
   return out;
 }
 
-/// How the cutters of an end are joined, where that is said; by their index.
+/// Decodes the joints of an end's cutters, if given, by their index.
 void decode_end_joints(Reader& in, const std::string& end, bevel::TableSpec& out,
                        std::vector<Warning>& warnings) {
   in.note("joints");
@@ -207,7 +207,7 @@ void decode_ends(Reader& in, const bevel::TableSpec& once, PartRequest& out) {
   });
 }
 
-/// Where others stand on the part, in the start's frame.
+/// Decodes the positions of other members on the part, in the start's frame.
 std::vector<part::Mark> decode_marks(Reader& in) {
   in.note("marks");
   if (!in.has("marks")) return {};
@@ -253,7 +253,7 @@ void decode_direct(Reader& in, PartRequest& out) {
   });
 }
 
-/// What is given once, for the whole part.
+/// Adds the values that are given once for the whole part.
 void add_once(const std::string& at, bool own_kerf, Renamings& out) {
   for (const auto* one : {"torch", "sampling"}) out.push_back({at + one, one});
   if (!own_kerf) out.push_back({at + "kerf", "kerf"});
@@ -301,7 +301,7 @@ PartRequest decode_part_request(Reader& in) {
   check_accepts(in, out.preset);
   const auto which = in.exactly_one({"members", "target"});
   if (!which) {
-    if (in.refused()) in.silence();  // what else there is depends on which of the two it is
+    if (in.refused()) in.silence();  // the other fields depend on which of the two it is
     return out;
   }
   if (which == 0)

@@ -11,14 +11,14 @@
 
 namespace tubecut::api {
 
-/// A part asked for as a member of a node, or by its two ends; `resolve` fills in `part`.
+/// A request for a part as a member of a node, or by its two ends; `resolve` fills in `part`.
 struct PartRequest {
   Preset preset = Preset::none;
   part::PartSpec part;
   std::optional<part::MemberSpec> member = {};  // of a node
   part::Datum datum = part::Datum::up;          // of a part given directly
   Angle seam = {};
-  bool start_kerf = false, finish_kerf = false;  // an end has one of its own
+  bool start_kerf = false, finish_kerf = false;  // an end has its own
   [[nodiscard]] bool seam_known() const {
     return (member ? member->datum : datum) == part::Datum::seam;
   }

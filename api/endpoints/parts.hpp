@@ -18,7 +18,7 @@
 
 namespace tubecut::api {
 
-/// /v1/parts, by itself and of every member of a frame: see pipeline.hpp.
+/// /v1/parts, as an endpoint and for every member of a frame: see pipeline.hpp.
 struct Parts {
   using Spec = PartRequest;
   struct Laser {

@@ -14,11 +14,11 @@ constexpr std::array kPresets{Option<Preset>{"tube_laser", Preset::tube_laser}};
 constexpr std::string_view kUntilted =
     "preset tube_laser never tilts the head; leave this field out";
 
-/// The one choice that goes with the preset, where the field is absent too.
+/// Decodes the only choice that the preset permits, also if the field is absent.
 template <class E, std::size_t N>
 E only(Reader& in, std::string_view name, const std::array<Option<E>, N>& options, E fallback) {
   const auto out = in.choice(name, options, fallback);
-  if (!in.understood(name)) in.silence();  // what else stands there belongs to the other choice
+  if (!in.understood(name)) in.silence();  // other fields belong to the other choice
   return out;
 }
 

@@ -19,14 +19,15 @@ namespace tubecut::api {
 enum class Preset { none, tube_laser };
 [[nodiscard]] Preset decode_preset(Reader& in);
 
-/// What `accept` may hold of an end besides a bevel's own limits, and of a part besides an end's.
+/// Members that `accept` may have for an end in addition to a bevel's own limits, and for a part in
+/// addition to an end's.
 inline constexpr std::array<std::string_view, 3> kEndAccepts{"max_gap_mm", "max_reach_mm",
                                                              "min_tongue_mm"};
 inline constexpr std::array<std::string_view, 3> kPartAccepts{"min_web_mm", "min_hole_to_end_mm",
                                                               "min_seam_to_hole_mm"};
 
-/// A limit that nothing would be measured for is an issue: without the preset, and of the seam
-/// where nobody says where it lies.
+/// Reports limits that have nothing to measure: without the preset, and for the seam if its
+/// position is not given.
 void check_accepts(Reader& in, Preset preset);
 void check_seam_limit(Reader& in, Preset preset, bool seam_known);
 
@@ -38,7 +39,7 @@ void decode_no_smoothing(Reader& in, bevel::TableSpec& out);
 [[nodiscard]] bevel::Tilt decode_no_tilt(Reader& in);
 void check_torch_reaches_square(Reader& in, const bevel::TorchRange& torch);
 
-/// What a laser shop asks of one cut end.
+/// Values that a laser shop needs for one cut end.
 struct EndReport {
   std::optional<bevel::Tongue> tongue;
   double reach = 0.0;

@@ -56,7 +56,7 @@ Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table, const
   return out;
 }
 
-/// Of one turn, with the first value again where it closes.
+/// Returns one revolution, with the first value again if it closes.
 std::vector<double> closed(std::vector<double> values, double turn = 0.0) {
   if (!values.empty()) values.push_back(values.front() + turn);
   return values;
@@ -79,8 +79,7 @@ std::vector<Band> partner_bands(const bevel::Table& table, const Caption& captio
   return out;
 }
 
-/// What the torch's range leaves of the room beside the curves: the nearer limit, and the other
-/// where they pass zero.
+/// Returns the torch limits to draw: the nearer one, and both if the curves pass zero.
 std::vector<Limit> torch_limits(const bevel::TableSpec& spec, const bevel::Table& table) {
   const auto [low, high] = std::ranges::minmax(table.b);
   const double least = spec.torch.min.rad(), most = spec.torch.max.rad();
@@ -91,8 +90,8 @@ std::vector<Limit> torch_limits(const bevel::TableSpec& spec, const bevel::Table
   return out;
 }
 
-/// The source's own picture, over phi: what the groove asks for, what clears the partners, what is
-/// cut; who cuts where, and how much B jumps by where it does.
+/// Returns the source's own picture, over phi: the B that the groove requires, the B that clears
+/// the partners, the B that is cut; the partner of each segment, and the jumps of B.
 Chart b_curve(const bevel::TableSpec& spec, const bevel::Table& table, const Caption& caption) {
   const auto phi = closed(in_degrees(table.phi), 360.0);
   const auto curve = [&](const char* name, const std::vector<double>& b, const char* color,

@@ -10,10 +10,11 @@ namespace tubecut::api {
 
 /// How B counts, in the answer and in every file that names it.
 [[nodiscard]] std::string_view name_of_b_sign(const bevel::Table& table);
-/// Of whatever lies in a part's frame: its ends, its holes.
+/// For everything in a part's frame: its ends, its holes.
 inline constexpr const char* kBSignInPart = "outer_edge_to_plus_z";
 
-/// Rows at which the cut has a corner: its junctions, where the sampling makes them rows.
+/// Returns whether the cut has a corner at each row: its junctions, if the sampling makes them
+/// rows.
 [[nodiscard]] std::vector<bool> corners(const bevel::TableSpec& spec, const bevel::Table& table);
 
 /// The named columns of the table; no names: every one.
@@ -22,9 +23,10 @@ inline constexpr const char* kBSignInPart = "outer_edge_to_plus_z";
                                           const Caption& caption);
 
 /// B before and after smoothing over the developed length, with the junctions, the mutations and
-/// the stretches where the torch's range binds; below it the finished edges over phi. The views
-/// `template` and `section`: see wrap_template.hpp and sections.hpp; `b_curve`: B over phi with
-/// what the groove asks for, what clears the partners, the torch's limits, and who cuts where.
+/// the segments in which the torch range binds; below it the finished edges over phi. The views
+/// `template` and `section`: see wrap_template.hpp and sections.hpp; `b_curve`: B over phi with the
+/// B that the groove requires, the B that clears the partners, the torch's limits, and the partner
+/// of each segment.
 [[nodiscard]] std::string bevel_table_svg(const bevel::TableSpec& spec, const bevel::Table& table,
                                           const Caption& caption);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kRowBytes = 4096;  // more than a row of numbers has
 
-/// No spreadsheet takes a piece of it for a cell of its own.
+/// Replaces separators, so that no spreadsheet reads a part of it as another cell.
 std::string unseparated(std::string text) {
   for (auto& c : text)
     if (std::string_view(",;|\"\t\r\n").find(c) != std::string_view::npos) c = ' ';

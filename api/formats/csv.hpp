@@ -12,9 +12,9 @@
 
 namespace tubecut::api {
 
-/// Tables as text/csv: lines that begin with `#` and hold neither commas nor quotes, with the
-/// verdict and what the columns need said; then RFC 4180, a header row of names that carry their
-/// units, then rows; numbers as in JSON, texts by csv_text, `true` and `false`.
+/// Tables as text/csv: lines that begin with `#` and contain neither commas nor quotes, with the
+/// verdict and notes on the columns; then RFC 4180, a header row of names with units, then rows;
+/// numbers as in JSON, texts by csv_text, `true` and `false`.
 class Csv {
  public:
   explicit Csv(const Caption& caption)
@@ -25,10 +25,10 @@ class Csv {
     head_.push_back(std::move(text));
     return *this;
   }
-  /// Beside what is there already; shorter columns end in empty cells.
+  /// Adds the table at the right of the existing columns; shorter columns end in empty cells.
   Csv& table(const Columns& columns);
-  /// One below the other, from the first row: the column `label` says which a row belongs to, and a
-  /// column that a table does not have is empty there.
+  /// Adds tables one below the other, from the first row: the column `label` gives the table of a
+  /// row, and a column that a table lacks is empty there.
   Csv& stacked(std::string_view label, const std::vector<std::pair<std::string, Columns>>& tables);
 
   [[nodiscard]] std::string print() const;

@@ -11,8 +11,8 @@ namespace tubecut::api {
 /// One row per section.
 [[nodiscard]] std::string groove_csv(const groove::GrooveSpec&, const groove::Groove&,
                                      const Caption&);
-/// Groove height over the section and, beside a fixed bevel, the filler areas; ?view=section: see
-/// groove_section_sheet.hpp.
+/// Returns the groove height over the section and, with a fixed bevel, the filler areas;
+/// ?view=section: see groove_section_sheet.hpp.
 [[nodiscard]] std::string groove_svg(const groove::GrooveSpec&, const groove::Groove&,
                                      const Caption&);
 /// The groove surface, coloured by the twist of its rulings.

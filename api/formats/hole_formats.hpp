@@ -11,7 +11,7 @@ namespace tubecut::api {
 [[nodiscard]] std::string hole_csv(const NamedHole& spec, const bevel::HoleCut& cut,
                                    const Caption& caption);
 
-// Each names the chord and the branch that the hole is for, where they have ids.
+// Each names the chord and the branch of the hole, if they have ids.
 
 /// The holes on the chord's developed outer surface, finished edges and torch line, and the gap
 /// over the branch's phase. The views `template` and `section`: see wrap_template.hpp,

@@ -23,7 +23,7 @@ Chart profile_chart(const joint::Intersection& cut, const Caption& caption) {
              .y = p.z,
              .color = p.outer ? "#2c6a9b" : "#6f8598"};
     for (auto& phi : s.x) phi *= kDegPerRad;
-    s.x.push_back(s.x.front() + 360.0);  // closes where it began
+    s.x.push_back(s.x.front() + 360.0);  // closes at its start
     s.y.push_back(s.y.front());
     out.series.push_back(std::move(s));
     if (!p.outer) continue;
@@ -34,7 +34,7 @@ Chart profile_chart(const joint::Intersection& cut, const Caption& caption) {
   return out;
 }
 
-/// Where the cut reaches furthest: on the outer wall, if that is there.
+/// Returns the furthest height of the cut: on the outer wall, if it is given.
 double long_point(const joint::Intersection& cut) {
   const auto* lead = &cut.profiles.front();
   for (const auto& p : cut.profiles)

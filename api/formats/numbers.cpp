@@ -12,10 +12,10 @@ namespace tubecut::api {
 namespace {
 
 constexpr int kMost = 6;            // significant digits that anybody is shown
-constexpr int kLeast = 4;           // of what has no places of its own
-constexpr double kRounding = 1e-9;  // below it a length or an angle is what rounding left of 0
+constexpr int kLeast = 4;           // for units without a fixed number of places
+constexpr double kRounding = 1e-9;  // below it, a length or an angle is rounding error
 
-/// Places behind the point; nothing for a unit that has none of its own.
+/// Returns the number of decimal places; nothing for a unit without a fixed number.
 int places(Unit unit, double size) {
   switch (unit) {
     case Unit::mm:
@@ -38,7 +38,7 @@ int places(Unit unit, double size) {
   return -1;
 }
 
-/// The power of ten of the first digit of what `value` is rounded to so many digits.
+/// Returns the power of ten of the first digit of `value` rounded to `digits` digits.
 int power_of(double value, int digits) {
   char text[64];
   const auto end =
@@ -51,7 +51,7 @@ int power_of(double value, int digits) {
   return power;
 }
 
-/// Rounded to so many significant digits, without an exponent.
+/// Returns the value rounded to `digits` significant digits, without an exponent.
 std::string significant(double value, int digits) {
   const int behind = digits - 1 - power_of(value, digits);
   if (behind >= 0) return fixed(value, behind);

@@ -6,8 +6,7 @@
 
 namespace tubecut::api {
 
-/// Members of a JSON file that is made from an answer: what made it, of what, for which order, and
-/// what was thought of it.
+/// Writes the members of a JSON file made from an answer: engine, input, order, and verdict.
 inline void write_provenance(const Caption& caption, Writer& w) {
   w.object("engine", [](Writer& o) {
     o.field("version", version());

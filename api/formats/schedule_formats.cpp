@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kColors[] = {"#2c6a9b", "#c2571a", "#4a8a57",
                                    "#8a5f8f", "#a98545", "#3f8a9a"};
-/// On the surface where the speed is asked for, mm/min.
+/// Returns the speed on the surface for which it is requested, mm/min.
 std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Schedule& s,
                               const std::stop_token& stop) {
   motion::Counted counted{s.period, static_cast<std::size_t>(s.periods), {}, {}, {}};
@@ -47,7 +47,8 @@ std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Sc
   return out;
 }
 
-/// The same cut without a plan: what each segment asks for, and what a period can hold.
+/// Returns the same cut without a plan: the pulses that each segment requires, and the capacity of
+/// a period.
 Chart naive_chart(const motion::ScheduleSpec& spec, const motion::Naive& naive) {
   Chart out{.title = "Before: pulses per period at constant speed, segment by segment",
             .x_label = "time, s",

@@ -12,7 +12,7 @@ namespace {
 bool beyond_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 bool printable(char c) { return (c >= 0x20 && c < 0x7f) || beyond_ascii(c); }
 
-/// Letters, digits and signs that mean nothing in a comment of any control or compiler.
+/// Keeps letters, digits and signs without a meaning in comments of any control or compiler.
 std::string in_a_comment(std::string_view text) {
   constexpr std::string_view kKept = "+-_.,:=/# ";
   const auto ascii = in_ascii(text);

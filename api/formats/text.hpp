@@ -5,14 +5,14 @@
 
 namespace tubecut::api {
 
-/// A number with so many digits behind the point; never "-0.00".
+/// Returns a number with `digits` digits after the point; never "-0.00".
 [[nodiscard]] std::string fixed(double value, int digits = 2);
 
-// Text that comes from a client, one function a format: in what is printed nothing of it acts. It
-// is UTF-8 without controls (text_encoding.hpp). In JSON (glTF) text goes through the Writer; STL
-// carries none. Formats of ASCII spell it in that, and throw Unspellable where they cannot.
+// Escape functions for text from a client, one per format, so that no text acts as a command in the
+// output. It is UTF-8 without controls (text_encoding.hpp). In JSON (glTF) text goes through the
+// Writer; STL has no text. ASCII formats spell it in ASCII, and throw Unspellable if they cannot.
 
-/// What a comment says behind a text that had to be spelled in ASCII.
+/// Returns the comment for a text that had to be spelled in ASCII.
 [[nodiscard]] std::string_view spelling_note(std::string_view text);
 
 /// As XML or HTML content or attribute value.
@@ -26,8 +26,8 @@ namespace tubecut::api {
 /// as \X2\ (UTF-16) or \X4\.
 [[nodiscard]] std::string step_text(std::string_view text);
 
-/// Inside a comment of RS-274, but not as its first word, where (MSG, (PRINT, (LOGOPEN, and their
-/// like act. Kept are letters, digits and "+-_.,:=/# "; the rest becomes '_'. With its
+/// For a comment of RS-274, but not as its first word, because (MSG, (PRINT, (LOGOPEN, and others
+/// act there. Keeps letters, digits and "+-_.,:=/# "; other characters become '_'. With its
 /// spelling_note.
 [[nodiscard]] std::string gcode_text(std::string_view text);
 
@@ -35,13 +35,13 @@ namespace tubecut::api {
 /// in gcode_text.
 [[nodiscard]] std::string dstv_text(std::string_view text);
 
-/// Inside a comment (* *) of IEC 61131-3: nothing in it ends the comment, opens one inside it or
-/// begins a pragma. Kept and spelled as in gcode_text.
+/// For a comment (* *) of IEC 61131-3: no character ends the comment, opens one inside it or begins
+/// a pragma. Kept and spelled as in gcode_text.
 [[nodiscard]] std::string structured_text_text(std::string_view text);
 
-/// As a whole cell of CSV: quoted where it must be (RFC 4180), and a `'` before each of = + - @ '
-/// that begins it, or follows a `,`, `;` or `|` in it, so that no spreadsheet, whatever it takes
-/// for a separator, computes it. Taking those away again gives the text. Not for numbers.
+/// For a whole cell of CSV: quoted if necessary (RFC 4180), with a `'` before each of = + - @ '
+/// that begins it, or follows a `,`, `;` or `|` in it, so that no spreadsheet, with any separator,
+/// computes it. Removing those gives the text. Not for numbers.
 [[nodiscard]] std::string csv_text(std::string_view text);
 
 }  // namespace tubecut::api

@@ -7,7 +7,7 @@
 
 namespace tubecut::api {
 
-struct ZipMemory;  // what minizip takes for the file
+struct ZipMemory;  // the file in minizip's terms
 
 /// A zip archive in memory, file by file, by minizip. Of the same files the same bytes: each has
 /// the format's earliest time, 1980-01-01.
@@ -15,10 +15,10 @@ class ZipArchive {
  public:
   ZipArchive();
   ~ZipArchive();
-  /// `name` in UTF-8, its folders between `/`; each name once. Throws Stopped, and
-  /// std::runtime_error where minizip fails.
+  /// `name` in UTF-8, its folders between `/`; each name once. Throws Stopped if cancelled, and
+  /// std::runtime_error if minizip fails.
   void add(const std::string& name, std::string_view bytes, const std::stop_token& stop);
-  /// The archive; nothing is added after it.
+  /// Returns the archive; call nothing after it.
   [[nodiscard]] std::string take();
 
  private:

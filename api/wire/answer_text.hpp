@@ -6,7 +6,7 @@
 
 namespace tubecut::api {
 
-// Members of an answer, of a job of its own and of one within another alike.
+// Members of an answer, both of a job and of a line of a batch.
 
 /// `job` and `request`; `echo` is the answer's request, perhaps with reference and log.
 void write_head(Writer& w, std::string_view endpoint, std::string_view job_id, const Answer& answer,
@@ -14,7 +14,7 @@ void write_head(Writer& w, std::string_view endpoint, std::string_view job_id, c
 /// `verification`, `verdict` and `warnings`.
 void write_judgement(Writer& w, const Answer& answer, const Json& echo);
 
-/// What a job is called where nobody gives it a name.
+/// Returns the default name of a job.
 [[nodiscard]] std::string own_job_id(const Answer& answer);
 
 }  // namespace tubecut::api

@@ -4,7 +4,7 @@
 #include "core/bevel/hole/hole.hpp"
 #include "core/bevel/table/table.hpp"
 
-/// What the enumerations of bevel tables and holes are called on the wire.
+/// Wire names of the enumerations of bevel tables and holes.
 namespace tubecut {
 
 template <>

@@ -12,10 +12,10 @@
 
 namespace tubecut::api {
 
-/// Writes CBOR (RFC 8949, definite lengths, shortest forms) item by item, without a document in
-/// between: an answer of a million periods would take sixteen bytes a number. Columns of integers
-/// in an object named "counts" are RFC 8746 typed arrays (tag 77, int16 little endian; tag 78,
-/// int32, where a value does not fit). Throws Stopped.
+/// Writes CBOR (RFC 8949, definite lengths, shortest forms) item by item, without an intermediate
+/// document, because an answer of a million periods would take sixteen bytes per number. Columns of
+/// integers in an object named "counts" are RFC 8746 typed arrays (tag 77, int16 little endian; tag
+/// 78, int32, if a value does not fit). Throws Stopped if cancelled.
 class CborWriter {
  public:
   explicit CborWriter(std::stop_token stop = {}) : stop_(std::move(stop)) {}

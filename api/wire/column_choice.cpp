@@ -11,7 +11,7 @@ std::vector<std::string> decode_columns(Reader& in, const std::vector<std::strin
   const auto& offered = in.refused() ? known : there;
   const auto names = in.text_column("columns", {.min = 1, .max = known.size()});
   for (auto name = names.begin(); name != names.end(); ++name) {
-    if (name->empty()) continue;  // no text: told already
+    if (name->empty()) continue;  // not a text: already reported
     const bool is_there = std::ranges::find(offered, *name) != offered.end();
     if (is_there && std::find(names.begin(), name, *name) == name) continue;
     const bool elsewhere = std::ranges::find(known, *name) != known.end();

@@ -7,8 +7,8 @@
 
 namespace tubecut::api {
 
-/// `columns` of a request: which of a table's columns are printed, by name; empty: all. `known`:
-/// those there may be; `there`: those of this very table, where the request is understood so far.
+/// Decodes `columns` of a request: names of the columns of a table to print; empty: all. `known`:
+/// all possible columns; `there`: those of this table, if the request is valid so far.
 [[nodiscard]] std::vector<std::string> decode_columns(Reader& in,
                                                       const std::vector<std::string>& known,
                                                       const std::vector<std::string>& there);

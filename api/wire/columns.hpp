@@ -18,10 +18,11 @@ struct Column {
                          std::vector<bool>, std::vector<std::optional<double>>>;
   std::string name;
   Values values;
-  bool seen = true;  // in what is printed; if not, still in what is hashed
+  bool seen = true;  // whether it is printed; it is always hashed
 };
 
-/// A table of an answer, said once: JSON and CBOR print it as members of an object, CSV as columns.
+/// A table of an answer, defined once: JSON and CBOR print it as members of an object, CSV as
+/// columns.
 class Columns {
  public:
   Columns& column(std::string_view name, std::vector<double> values) {
@@ -37,7 +38,7 @@ class Columns {
   Columns& texts(std::string_view name, std::vector<std::string> values) {
     return add(name, std::move(values));
   }
-  /// Numbers that a row may lack: where they are no number, null, in CSV an empty cell.
+  /// Adds numbers that may be missing in a row: NaN becomes null, in CSV an empty cell.
   Columns& where_any(std::string_view name, const std::vector<double>& values);
   Columns& flags(std::string_view name, std::vector<bool> values) {
     return add(name, std::move(values));

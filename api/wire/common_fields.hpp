@@ -25,9 +25,9 @@ struct CommonFields {
 [[nodiscard]] CommonFields read_common_fields(Reader& in,
                                               std::span<const std::string_view> accepts);
 
-/// The same of a request inside another, which may be an echo pasted in: its `reference` and `log`
-/// are read and echoed, its `numerics` must be the engine's, and an `accept`, which nobody would
-/// judge there, is an issue.
+/// Reads the same of a request inside another, which may be a pasted echo: its `reference` and
+/// `log` are read and echoed, its `numerics` must be the engine's, and an `accept`, which has no
+/// effect there, is an issue.
 void read_inner_common_fields(Reader& in);
 
 }  // namespace tubecut::api

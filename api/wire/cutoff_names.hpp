@@ -3,10 +3,11 @@
 #include "core/base/names.hpp"
 #include "core/cutoff/command.hpp"
 
-/// What the enumerations of feed curves are called on the wire.
+/// Wire names of the enumerations of feed curves.
 namespace tubecut {
 
-/// The last is no choice of a request's: answers hold it beside the others, for comparison.
+/// A request cannot choose the last value: answers contain it in addition to the others, for
+/// comparison.
 template <>
 inline constexpr auto kNames<cutoff::FitMethod> =
     std::to_array<Option<cutoff::FitMethod>>({{"minimax", cutoff::FitMethod::minimax},

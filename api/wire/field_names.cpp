@@ -13,7 +13,7 @@ constexpr std::string_view kUnits[] = {
     "mm_min", "pulses",      "mm_s",       "m_min",      "mm3",     "mm2",      "deg",   "rad",
     "ms",     "us",          "um",         "kg",         "mm",      "s"};
 
-/// What other programs call a field, and what it is called here; without units.
+/// Names that other programs give a field, and its name here; without units.
 constexpr std::pair<std::string_view, std::string_view> kOtherWords[] = {
     {"od", "outer_diameter"}, {"dia", "outer_diameter"},  {"outside_diameter", "outer_diameter"},
     {"thickness", "wall"},    {"wall_thickness", "wall"}, {"wt", "wall"},
@@ -44,8 +44,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-/// Letters wrong, left out or too many, of a slip of the pen: of a short word one, or it is
-/// another.
+/// Returns the number of wrong, missing or extra letters that count as a typo: one in a short word,
+/// because more make another word.
 std::size_t slips(std::string_view name) { return name.size() < 5 ? 1 : 2; }
 
 std::string in_lower_case(std::string_view text) {
@@ -55,8 +55,8 @@ std::string in_lower_case(std::string_view text) {
   return out;
 }
 
-/// The candidate of the fewest changes, at most `farthest`, whatever their case; empty when there
-/// is none.
+/// Returns the candidate with the fewest changes, at most `farthest`, ignoring case; empty if there
+/// is no such candidate.
 std::string nearest(std::string_view name, const std::vector<std::string>& known,
                     std::size_t farthest) {
   std::string best;

@@ -7,19 +7,19 @@
 
 namespace tubecut::api {
 
-/// The candidate most like `name`, empty when none is near.
+/// Returns the candidate most similar to `name`; empty if no candidate is near.
 [[nodiscard]] std::string nearest_name(std::string_view name,
                                        const std::vector<std::string>& candidates);
 
-/// The field most likely meant by `name`: one that says the same in other words (`od` for
-/// `outer_diameter_mm`), one that `name` is the end of, or the nearest name.
+/// Returns the field most likely meant by `name`: a synonym (`od` for `outer_diameter_mm`), a field
+/// that ends in `name`, or the nearest name.
 [[nodiscard]] std::string nearest_field(std::string_view name,
                                         const std::vector<std::string>& fields);
 
-/// The field that `name` is a slip of the pen from; empty when there is none.
+/// Returns the field of which `name` is a typo; empty if there is no such field.
 [[nodiscard]] std::string slip_of(std::string_view name, const std::vector<std::string>& fields);
 
-/// "a|b|c": what may stand in a field, as limits and hints tell it.
+/// Returns "a|b|c": the permitted values of a field, for limits and hints.
 template <class All, class Name = std::identity>
 [[nodiscard]] std::string one_of(const All& all, Name name = {}) {
   std::string out;

@@ -14,7 +14,7 @@ constexpr std::size_t kLongestValue = 60;
 constexpr std::size_t kLongestName = 200;   // bytes; file systems take 255
 constexpr std::size_t kLongestEnding = 16;  // kept of a name that is cut short
 constexpr std::string_view kUnsaid = "none";
-/// Names that are devices on some systems, whatever their ending; of these with a digit as well.
+/// Names that are devices on some systems, with any extension; the second list also with a digit.
 constexpr std::string_view kDevices[] = {"CON", "PRN", "AUX", "NUL"}, kNumbered[] = {"COM", "LPT"};
 
 std::string upper(std::string_view text) {
@@ -38,7 +38,7 @@ std::string of_reference(const Reference& reference, std::string_view name) {
   return {};
 }
 
-/// All that tells which piece it is.
+/// Returns all fields that identify the piece.
 std::string whole(const Reference& reference) {
   std::string out;
   for (const auto* name : {"order", "drawing", "part", "revision"})

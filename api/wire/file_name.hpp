@@ -9,16 +9,16 @@
 
 namespace tubecut::api {
 
-/// Letters, digits and . _ -; of what else there is, Latin letters by their spelling in ASCII, the
-/// rest as _.
+/// Returns the text in letters, digits and . _ -; Latin letters spelled in ASCII, other characters
+/// as _.
 [[nodiscard]] std::string in_file_name(std::string_view text);
 
 /// A program as a file.
 struct ProgramFile {
   std::string media, ending;
-  std::string name;  // by the post; empty where it says none
+  std::string name;  // from the post; empty if it sets no name
 };
-/// Of a document by a post; of any other what its format says.
+/// Returns the file of a document by a post; for other formats, as the format defines.
 [[nodiscard]] ProgramFile program_file(
     const FormatName& format, const FormatOptions& options, std::string_view endpoint,
     const std::vector<std::pair<std::string, std::string>>& reference,

@@ -23,27 +23,28 @@ struct BundleFile {
   std::string_view name;  // in ?files=
   std::string_view format;
   std::string_view ending;
-  bool needs_speed = false;  // and what else gcode reads
+  bool needs_speed = false;  // and the other options that gcode reads
 };
 inline constexpr std::string_view kFilesOption = "files";
 inline constexpr BundleFile kBundleFiles[] = {
     {"work-order", "svg", ".svg"}, {"nc1", "nc1", ".nc1"}, {"dxf", "dxf", ".dxf"},
     {"step", "step", ".step"},     {"csv", "csv", ".csv"}, {"gcode", "gcode", ".ngc", true}};
 
-/// What a template is printed on: one sheet as large as it is, or pages.
+/// Paper of a template: one sheet of its full size, or pages.
 enum class Paper { sheet, a4, a3, letter, tabloid };
 
-/// Which passes of an end with a land a program has: nobody says, the bevel's alone, or both.
+/// Passes of an end with a land in a program: not given, only the bevel's, or both.
 enum class Passes { unsaid, bevel, both };
 
-/// What the query says of a drawing or a machine file. Lengths in mm.
+/// Options of a drawing or a machine file in the query. Lengths in mm.
 struct FormatOptions {
   bool mirror = false;  // drawn for the print side to lie on the tube
   Paper paper = Paper::sheet;
   bool torch = false;                          // the program lights the torch; else it only moves
   std::vector<std::string> acknowledged = {};  // codes of warnings of a `review` that is cut
-  std::shared_ptr<const Post> post = {};       // whose words a program is written in
-  std::shared_ptr<const MachineProcess> process = {};  // what a program says nothing of, takes
+  std::shared_ptr<const Post> post = {};       // post that defines the program's syntax
+  std::shared_ptr<const MachineProcess> process = {};  // process values for those that the request
+                                                       // does not set
   bool axial_z = false;                                // the axis along the tube is Z, not X
   std::optional<double> speed = {};                    // mm/min, of the torch on the outer wall
   std::optional<double> lead = {};     // radius of the arcs that run in and out on the scrap side
@@ -62,22 +63,23 @@ struct FormatOptions {
   std::vector<BundleFile> files = {};     // of each part, in a bundle
 };
 
-/// What a drawing or a machine file prints beside the result.
+/// Texts that a drawing or a machine file prints in addition to the result.
 struct Caption {
   std::vector<std::pair<std::string, std::string>> reference;
-  std::vector<std::string> partners = {};         // what they are called; of a part, the start's
+  std::vector<std::string> partners = {};         // names of the partners; for a part, the start's
   std::vector<std::string> finish_partners = {};  // of a part
   std::vector<std::string> members = {};          // of a frame, which this part is
   std::string input_sha256;
   std::string result_sha256;
   std::string view;  // ?view=, empty: the format's default
   FormatOptions options = {};
-  Verdict verdict = {};           // stands in the head of every file: verdict_lines
-  const Json* request = nullptr;  // as understood
+  Verdict verdict = {};           // for the head of every file: verdict_lines
+  const Json* request = nullptr;  // with defaults applied
   std::stop_token stop = {};
 };
 
-/// Thrown by a format that has no use for an option that was given: nothing is ignored in silence.
+/// Thrown by a format that does not support a given option, because no option is ignored without a
+/// message.
 struct UnfitOption {
   std::string_view name;
   std::string hint;

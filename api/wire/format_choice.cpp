@@ -45,7 +45,8 @@ std::string listed(const std::vector<std::string_view>& names) {
   return out.empty() ? "none" : out;
 }
 
-/// Why none of the formats was meant: by its name a parameter is wrong, by Accept the call is.
+/// Returns the reason why no format matches: if given by name, a parameter is wrong; if by Accept,
+/// the call is.
 Problem no_format(const Query& query, const Endpoint& endpoint) {
   const auto formats = endpoint.formats;
   std::string out = "offered: application/json (json), application/cbor (cbor)";
@@ -67,7 +68,7 @@ bool has(const std::vector<std::string_view>& all, std::string_view one) {
   return std::ranges::find(all, one) != all.end();
 }
 
-/// A bundle is asked what the files in it ask.
+/// Returns the format that determines the options: a bundle takes the options of its files.
 FormatName as_asked(FormatName format, const Query& query) {
   if (!format.is_bundle()) return format;
   format.needs_speed = std::ranges::any_of(query.options.files, &BundleFile::needs_speed);
@@ -75,7 +76,7 @@ FormatName as_asked(FormatName format, const Query& query) {
   return format;
 }
 
-/// What a program along torch lines needs and has not, or has and cannot use.
+/// Returns the values that a program along torch lines lacks, or has but cannot use.
 std::vector<FieldIssue> program_issues(const std::string& format, const FormatOptions& o) {
   struct Rule {
     std::string_view name, unit;
@@ -139,7 +140,8 @@ void expect_pair(const Query& query, std::vector<FieldIssue>& issues) {
                         .hint = "machine and material name rows of a process table together"});
 }
 
-/// Why the answer cannot be printed as asked; nothing when it can. JSON and CBOR have no options.
+/// Returns the reason why the answer cannot be printed as requested; nothing if it can. JSON and
+/// CBOR have no options.
 std::optional<Problem> format_problem(const Query& query, const FormatName* chosen) {
   const auto format = chosen != nullptr ? as_asked(*chosen, query)
                                         : FormatName{.name = "json", .media = kJsonMedia};

@@ -21,20 +21,20 @@ inline constexpr std::string_view kCborMedia = "application/cbor";
 struct FormatChoice {
   Encoding encoding = Encoding::json;
   const FormatName* format = nullptr;  // instead, unless nullptr
-  bool by_lines = false;               // begun, and its lines left to be asked
+  bool by_lines = false;               // only the first part, with its lines left to request
 };
 
 /// Media type without parameters, in lower case.
 [[nodiscard]] std::string media_of(std::string_view header);
 
 /// `?format=` first, then of the types in Accept that there are the one of most weight, then JSON.
-/// Errors  `not_acceptable` with what is offered; options and views that the format has not, all of
-///         them at once; the speed that it needs.
+/// Errors  Returns the format, or `not_acceptable` with the supported ones; all unsupported options
+///         and views at once; the required speed.
 [[nodiscard]] tl::expected<FormatChoice, Problem> choose_format(const Query& query,
                                                                 std::string_view accept,
                                                                 const Endpoint& endpoint);
 
-/// What is wrong with a query string, all of it at once.
+/// Returns all faults of a query string at once.
 [[nodiscard]] Problem query_problem(std::vector<FieldIssue> issues,
                                     ErrorCode code = ErrorCode::bad_request);
 

@@ -3,7 +3,7 @@
 #include "core/base/names.hpp"
 #include "core/frame/frame.hpp"
 
-/// What the enumerations of frames are called on the wire.
+/// Wire names of the enumerations of frames.
 namespace tubecut {
 
 template <>

@@ -3,7 +3,7 @@
 #include "core/base/names.hpp"
 #include "core/groove/mill_path.hpp"
 
-/// What the enumerations of grooves and mill paths are called on the wire.
+/// Wire names of the enumerations of grooves and mill paths.
 namespace tubecut {
 
 template <>

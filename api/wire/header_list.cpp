@@ -12,7 +12,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
-/// What stands before the next `by`; `text` goes on after it.
+/// Returns the text before the next `by`; `text` continues after it.
 std::string_view next(std::string_view& text, char by) {
   const auto end = text.find(by);
   const auto piece = trimmed(text.substr(0, end));

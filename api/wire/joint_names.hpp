@@ -4,7 +4,7 @@
 #include "core/joint/intersection.hpp"
 #include "core/joint/joint.hpp"
 
-/// What the enumerations of joints and their curves are called on the wire.
+/// Wire names of the enumerations of joints and their curves.
 namespace tubecut {
 
 template <>

@@ -39,13 +39,14 @@ struct Progress {
 
 constexpr std::size_t kLong = 4096;  // elements or members that are moved or freed in no time
 
-/// How many elements or members each container of more than kLong has, by its number in the order
-/// in which they open. Of bytes that are no JSON, or deeper than `depth`, it need not be right.
+/// Returns the number of elements or members of each container with more than kLong, by its number
+/// in the order of opening. If the bytes are not JSON, or deeper than `depth`, the result may be
+/// wrong.
 std::map<std::size_t, std::size_t> long_containers(Progress progress, const char* at,
                                                    std::size_t depth) {
   std::map<std::size_t, std::size_t> out;
   progress.ask_at = at;
-  std::vector<std::pair<std::size_t, std::size_t>> open;  // number, commas so far
+  std::vector<std::pair<std::size_t, std::size_t>> open;  // number, commas until now
   bool in_text = false;
   for (std::size_t opened = 0; at != progress.end; ++at) {
     progress.reach(at);
@@ -67,8 +68,7 @@ std::map<std::size_t, std::size_t> long_containers(Progress progress, const char
   return out;
 }
 
-/// Walks bytes and tells a shared place how far it has come, so that a SAX callback knows its
-/// offset.
+/// Walks bytes and reports its progress, so that a SAX callback knows its offset.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -97,7 +97,7 @@ class CountingIterator {
   Progress* progress_;
 };
 
-/// Builds a Json from SAX events and refuses what a lenient parser lets through.
+/// Builds a Json from SAX events and refuses the errors that a lenient parser permits.
 class Builder final : public nlohmann::json_sax<nlohmann::json> {
  public:
   Builder(std::size_t depth, const char* begin, const Progress* progress)
@@ -135,7 +135,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   }
   bool parse_error(std::size_t position, const std::string& /*token*/,
                    const nlohmann::detail::exception& error) override {
-    // what() carries the client's raw bytes: only the class of the failure is passed on.
+    // what() contains the client's raw bytes, so only the class of the failure is passed on.
     error_ = {position == 0 ? 0 : position - 1,
               error.id == 406 ? "number too large" : "not valid JSON"};
     return false;
@@ -149,8 +149,9 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     error_ = {static_cast<std::size_t>(progress_->at - begin_), reason};
     return false;
   }
-  /// A long container is moved once, to where all of it has its place: by halves it would move as a
-  /// whole, and for longer than a stop waits. The bytes are read for it once, if there is any.
+  /// Reserves a long container once at its full size, because growing by doubling would move it as
+  /// a whole, which takes longer than a stop may wait. For this the bytes are read twice, if there
+  /// is any.
   template <class Container>
   void make_room(Container& container) {
     if (container.size() != kLong) return;
@@ -206,7 +207,7 @@ std::string escaped(std::string_view name) {
   return out;
 }
 
-/// Follows where the parser is, up to the first number that is none.
+/// Follows the parser's position to the first number that no double holds.
 class NumberFinder final : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit NumberFinder(const std::stop_token& stop) : pace_(stop) {}
@@ -243,7 +244,7 @@ class NumberFinder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
-  static constexpr double kBeyond = 0x1p54;  // of what is rounded to 2^53
+  static constexpr double kBeyond = 0x1p54;  // beyond values that round to 2^53
 
   /// An open container: the member, or the index of the element, that is read.
   struct Place {
@@ -313,7 +314,8 @@ void append_text(std::string& out, std::string_view text) {
 char* print_number(char* to, double value) {
   value += 0.0;  // -0 is printed as 0: CBOR's integers have no other
   if (std::abs(value) < std::numeric_limits<double>::min()) value = 0.0;  // no reader takes less
-  // Beyond 2^53 with an exponent: digits alone would be an integer that our own reader refuses.
+  // Beyond 2^53 numbers get an exponent, because digits without one would be an integer that our
+  // own reader refuses.
   constexpr double kExact = 9007199254740992.0;
   return std::abs(value) > kExact
              ? std::to_chars(to, to + kNumberBytes, value, std::chars_format::scientific).ptr

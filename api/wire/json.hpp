@@ -64,7 +64,7 @@ struct ParseLimits {
 /// Appends a JSON string or number token. `value` must be finite.
 void append_text(std::string& out, std::string_view text);
 void append_number(std::string& out, double value);
-/// The same token at `to`, where kNumberBytes may be written; returns its end.
+/// Writes the same token at `to`, which has room for kNumberBytes; returns its end.
 inline constexpr std::size_t kNumberBytes = 32;
 [[nodiscard]] char* print_number(char* to, double value);
 

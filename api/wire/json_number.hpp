@@ -9,7 +9,7 @@
 
 namespace tubecut::api {
 
-/// Why a number of a JSON text is no double, or nothing.
+/// Reason why a number of a JSON text is not a double, or nothing.
 struct NumberFault {
   const char* reason = "";
   double limit = 0.0;
@@ -18,17 +18,17 @@ struct NumberFault {
 /// digits is too small; an integer without point or exponent is exact up to 2^53.
 [[nodiscard]] std::optional<NumberFault> number_fault(double value, std::string_view text);
 
-/// A number of a JSON text that no double holds, and where it stands.
+/// A number of a JSON text that no double holds, and its position.
 struct BadNumber {
   std::string pointer = {}, text = {};
   NumberFault fault = {};
 };
-/// The first of them, or nothing if the text ends or is wrong before there is one.
+/// Returns the first of them, or nothing if the text ends or has an error before it.
 [[nodiscard]] std::optional<BadNumber> find_bad_number(std::string_view json,
                                                        const std::stop_token& stop);
 
-/// The first number of a JSON text that no double holds, as an issue of its field (out_of_range).
-/// Nothing if the text ends or is wrong before there is one.
+/// Returns the first number of a JSON text that no double holds, as an issue of its field
+/// (out_of_range). Nothing if the text ends or has an error before it.
 [[nodiscard]] std::optional<FieldIssue> number_issue(std::string_view json,
                                                      const std::stop_token& stop = {});
 

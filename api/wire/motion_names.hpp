@@ -13,7 +13,7 @@ enum class BSign { outer_edge_into_part, outer_edge_to_plus_z, inward };
 
 }  // namespace tubecut::api
 
-/// What the enumerations of machines, schedules and programs are called on the wire.
+/// Wire names of the enumerations of machines, schedules and programs.
 namespace tubecut {
 
 template <>
@@ -58,7 +58,7 @@ inline constexpr auto kNames<torch::Segment::Kind> =
                                                  {"pierce", torch::Segment::Kind::pierce},
                                                  {"cut", torch::Segment::Kind::cut},
                                                  {"mark", torch::Segment::Kind::mark}});
-/// Why a cut begins where it does.
+/// Reason for a cut's start.
 template <>
 inline constexpr auto kNames<motion::Start::At> =
     std::to_array<Option<motion::Start::At>>({{"first_point", motion::Start::At::first_point},

@@ -4,7 +4,7 @@
 #include "core/part/member.hpp"
 #include "core/part/webs.hpp"
 
-/// What the enumerations of parts are called on the wire.
+/// Wire names of the enumerations of parts.
 namespace tubecut {
 
 template <>

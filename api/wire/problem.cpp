@@ -46,7 +46,7 @@ bool holds_members(const Json& json) {
   return json.as<Json::Object>() != nullptr || json.as<Json::Array>() != nullptr;
 }
 
-/// The first issue in words: where, what, and what would do.
+/// Returns the first issue in words: the field, the error, and a valid value.
 std::string sentence(const std::vector<FieldIssue>& issues) {
   const auto& first = issues.front();
   std::string out = (first.pointer.empty() ? "the request" : first.pointer) + ": ";
@@ -59,7 +59,8 @@ std::string sentence(const std::vector<FieldIssue>& issues) {
   return out;
 }
 
-/// In the unit of its field, with the digits that a client sends: core tells angles in degrees.
+/// Converts to the unit of the field, with the digits that a client sends, because core reports
+/// angles in degrees.
 FieldIssue in_own_unit(FieldIssue issue) {
   if (issue.unit != "deg" || unit_of(issue.pointer) != "rad") return issue;
   constexpr double kDigits = 1e12;
@@ -92,7 +93,7 @@ std::string pointer_of(std::string_view member, const Json& request) {
       if (index < array->size()) next = &(*array)[index];
     }
     pointer += "/" + name;
-    if (next == nullptr || !holds_members(*next)) break;  // what is not there has no members
+    if (next == nullptr || !holds_members(*next)) break;  // a missing value has no members
     here = next;
   }
   return pointer;

@@ -17,7 +17,7 @@
 
 namespace tubecut::api {
 
-/// A request refused: the top code, one sentence, and what is wrong with each field.
+/// A refused request: the top code, one sentence, and the error of each field.
 struct Problem {
   ErrorCode code = ErrorCode::internal_error;
   std::string detail = {};
@@ -28,20 +28,21 @@ struct Problem {
 /// Field issues as one problem: their own code when they agree on it, else `invalid_request`.
 [[nodiscard]] Problem field_problem(std::vector<FieldIssue> issues);
 
-/// A core error, its members mapped to pointers into the request as it was understood.
+/// Returns a core error, its members mapped to pointers into the request with defaults applied.
 [[nodiscard]] Problem core_problem(const Error& error, const Json& request);
 
-/// The texts of the reference and of the request that a format of ASCII cannot spell, those of the
-/// request where the line that met them holds them.
+/// Returns the texts of the reference and of the request that an ASCII format cannot spell; those
+/// of the request only if the line at fault contains them.
 [[nodiscard]] Problem unspellable_problem(
     const Unspellable& met, const FormatName& format,
     const std::vector<std::pair<std::string, std::string>>& reference, const Json& request);
 
-/// Pointers of the objects and arrays that the request as understood has and the body has not.
+/// Returns pointers to the objects and arrays that the request with defaults has and the body has
+/// not.
 [[nodiscard]] std::vector<std::string> filled_in(const Json& body, const Json& request,
                                                  const std::stop_token& stop);
 
-/// The same problem; what points into one of these places points to the place.
+/// Returns the same problem; pointers into one of these places become pointers to the place.
 [[nodiscard]] Problem pointing_no_further(Problem problem, const std::vector<std::string>& places);
 
 /// The first check that does not hold; an answer with one is withheld.
@@ -53,7 +54,7 @@ void keep_worst(std::vector<Check>& worst, const std::vector<Check>& checks);
 /// "cutters/1/offset" -> "/cutters/1/offset_mm", by the names the request has.
 [[nodiscard]] std::string pointer_of(std::string_view member, const Json& request);
 
-/// The same problem, with what the request's numbers look like in other units.
+/// Returns the same problem, with the units in which the request's numbers would be plausible.
 [[nodiscard]] Problem with_suspicions(Problem problem, const Json& request,
                                       const std::stop_token& stop);
 

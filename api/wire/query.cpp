@@ -35,7 +35,7 @@ std::optional<int> hex_digit(char c) {
   return std::nullopt;
 }
 
-/// Percent-encoding and "+" undone; a "%" that begins no code stands for itself.
+/// Decodes percent-encoding and "+"; a "%" that begins no code stays.
 std::string decoded(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -93,7 +93,7 @@ std::vector<std::string> between_commas(std::string_view text) {
   return out;
 }
 
-/// "nc1,step": files of a bundle, each once; the first five where nothing is said.
+/// Reads "nc1,step": files of a bundle, each once; the default is the first five.
 std::vector<BundleFile> read_files(Reader& in) {
   constexpr std::size_t kLongest = 100;
   const auto text = in.optional_text("files", kLongest);
@@ -120,7 +120,7 @@ std::vector<BundleFile> read_files(Reader& in) {
   return out;
 }
 
-/// "free_end,standoff": codes between commas. Which are meant is judged when the answer is there.
+/// Reads "free_end,standoff": codes separated by commas. They are checked when the answer exists.
 std::vector<std::string> read_acknowledged(Reader& in, bool torch) {
   constexpr std::size_t kLongest = 1'000;
   const auto text = in.optional_text("acknowledge", kLongest);
@@ -150,8 +150,8 @@ constexpr std::array kDialects{Option<std::string_view>{"linuxcnc", "linuxcnc"},
 
 constexpr std::size_t kLongestPost = 8'000;  // as long as a target may be
 
-/// `post` names one of GET /v1/posts, or is one; `dialect`, which is older, names one of two. What
-/// is wrong within a post goes to `within`.
+/// Reads `post`, which names one of GET /v1/posts, or is one; `dialect`, which is older, names one
+/// of two. Errors within a post go to `within`.
 std::shared_ptr<const Post> read_post(Reader& in, std::vector<FieldIssue>& within) {
   const auto name = in.optional_text("post", kLongestPost);
   const auto dialect = in.choice("dialect", kDialects, "linuxcnc");
@@ -221,7 +221,7 @@ FormatOptions read_options(Reader& in, std::vector<FieldIssue>& within) {
   return out;
 }
 
-/// What the reader found, said of parameters.
+/// Reports the reader's issues as issues of parameters.
 void finish(Reader& in, std::vector<FieldIssue>& issues) {
   for (auto& issue : in.finish_root()) {
     const bool whole = std::ranges::find(kWhole, issue.pointer.substr(1)) != kWhole.end();

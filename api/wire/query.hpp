@@ -9,7 +9,7 @@
 
 namespace tubecut::api {
 
-/// What the query string of a request asks of its answer.
+/// The query string of a request: the requested form of its answer.
 struct Query {
   bool validate_only = false;
   std::string format;  // empty: by Accept
@@ -18,7 +18,7 @@ struct Query {
   Json::Object given;  // the options that are there, as sent
 };
 
-/// A query string as understood, and everything that is wrong with it. Pointers are "?name".
+/// A query string with defaults applied, and all its errors. Pointers are "?name".
 struct ParsedQuery {
   Query query;
   std::vector<FieldIssue> issues;
@@ -28,7 +28,7 @@ struct ParsedQuery {
 /// reader of bodies: unknown names, names given twice, values not offered or out of range.
 [[nodiscard]] ParsedQuery parse_query(std::string_view text);
 
-/// The same where no parameter is read: whatever is there is wrong.
+/// Returns issues for a path without parameters: each given one is an error.
 [[nodiscard]] std::vector<FieldIssue> refuse_parameters(std::string_view text);
 
 }  // namespace tubecut::api

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kIssuesNamed = 32;
 constexpr std::size_t kShownText = 80;
 
-/// What was got, short enough for a problem document.
+/// Returns the value shortened for a problem document.
 Json shown(const Json& value) {
   if (value.as<Json::Array>() != nullptr || value.as<Json::Object>() != nullptr) {
     const bool object = value.as<Json::Object>() != nullptr;
@@ -83,7 +83,7 @@ void Reader::issue(FieldIssue issue, const Json* value) {
 
 void Reader::record(FieldIssue issue, const Json* value) {
   if (silent_ || issues_->size() >= kIssuesNamed) return;
-  // What a field is already refused for is enough: more would follow from it.
+  // One issue per field is enough, because others would follow from it.
   for (const auto& known : *issues_)
     if (known.pointer == issue.pointer) return;
   if (value != nullptr) issue.got = shown(*value);
@@ -124,7 +124,7 @@ std::vector<FieldIssue> Reader::finish_root() {
   return std::move(own_issues_);
 }
 
-/// `wanted`: what the field holds, in a word.
+/// `wanted`: the type of the field, in a word.
 const Json* Reader::required(std::string_view name, std::string_view wanted) {
   note(name);
   const auto* field = find(name);

@@ -48,10 +48,9 @@ struct FieldIssue {
 
 /// Reads one object of a request: the only reader of request fields.
 ///
-/// Every field that is asked for is checked (type, finite, range, unit) and echoed as understood,
-/// with its default if it was absent; a field never asked for is an issue. All issues are
-/// collected; a getter returns a harmless value beside an issue. Degrees become radians here and
-/// nowhere else.
+/// Checks every field that is read (type, finite, range, unit) and echoes it with defaults applied;
+/// a field that is never read is an issue. Collects all issues; if there is an issue, a getter
+/// returns a harmless value. Degrees become radians here and nowhere else.
 class Reader {
  public:
   explicit Reader(const Json& body);
@@ -64,9 +63,9 @@ class Reader {
     return field != nullptr && field->as<T>() != nullptr;
   }
 
-  /// Is anything wrong with the request so far?
+  /// Returns whether the request has any issue so far.
   [[nodiscard]] bool refused() const { return !issues_->empty(); }
-  /// Has the field been read, or its default taken, without an issue of its own?
+  /// Returns whether the field has been read, or its default taken, without an issue of its own.
   [[nodiscard]] bool understood(std::string_view name) const;
 
   double number(std::string_view name, Range range = {}, std::optional<double> fallback = {});
@@ -76,7 +75,7 @@ class Reader {
   /// Printable text of 1 to `longest` characters. `fallback` empty: required.
   /// One to `longest` characters (text_encoding.hpp).
   std::string text(std::string_view name, std::size_t longest = 64);
-  /// Printable ASCII: what becomes a word of a program.
+  /// Reads printable ASCII that becomes a word of a program.
   std::string ascii_text(std::string_view name, std::size_t longest);
   std::optional<std::string> optional_text(std::string_view name, std::size_t longest = 64);
   /// A field ending in `_deg` (range in degrees) or `_rad` (range in radians).
@@ -88,14 +87,14 @@ class Reader {
   std::vector<double> column(std::string_view name, CountRange count, Range range = {});
   std::vector<double> angle_column(std::string_view name, CountRange count, Range range = {});
   std::vector<bool> flag_column(std::string_view name, CountRange count);
-  /// Printable texts of 1 to `longest` characters; an empty text stands beside an issue.
+  /// Reads printable texts of 1 to `longest` characters; if there is an issue, the text is empty.
   std::vector<std::string> text_column(std::string_view name, CountRange count,
                                        std::size_t longest = 64);
   Eigen::Vector3d vector3(std::string_view name, Range range = {});
   /// An array of [first, second].
   std::vector<std::pair<double, double>> pairs(std::string_view name, CountRange count, Range first,
                                                Range second);
-  /// A number, or null for none; absent means none.
+  /// Reads a number, or null; nothing if null or absent.
   std::optional<double> nullable_number(std::string_view name, Range range);
   /// True, and echoed, when the member is null.
   bool is_null(std::string_view name);
@@ -117,8 +116,8 @@ class Reader {
     return choice(name, kNames<E>, fallback);
   }
 
-  /// The choice that tells what the other members are. Without a valid one nothing more of this
-  /// object is an issue.
+  /// Reads the choice that determines the other members. If it is not valid, this object reports no
+  /// more issues.
   template <class E, std::size_t N>
   std::optional<E> tag(std::string_view name, const std::array<Option<E>, N>& options) {
     const auto value = choice(name, options);
@@ -126,8 +125,8 @@ class Reader {
     return silent_ ? std::nullopt : std::optional<E>(value);
   }
 
-  /// Which one of these members is there; when it is not exactly one, nothing, and an issue at each
-  /// of them.
+  /// Returns the only one of these members that is present; if there is not exactly one, returns
+  /// nothing and reports an issue at each.
   std::optional<std::size_t> exactly_one(std::initializer_list<std::string_view> names);
 
   /// A nested object, read by `decode(Reader&)`; required.
@@ -192,10 +191,10 @@ class Reader {
   /// Records an issue; `issue.pointer` is relative to this object, `got` is taken from `value` when
   /// given.
   void issue(FieldIssue issue, const Json* value = nullptr);
-  /// Nothing more of this object is reported.
+  /// This object reports no more issues.
   void silence() { silent_ = true; }
 
-  /// Reports the fields never asked for and gives up the issues; call once, at the root.
+  /// Reports the fields that were never read and returns all issues; call once, at the root.
   [[nodiscard]] std::vector<FieldIssue> finish_root();
   [[nodiscard]] const Json::Object& echo() const { return echo_; }
   /// The echo, which may be large, given away; for when all is read.
@@ -207,7 +206,7 @@ class Reader {
   /// Whether the answer goes out in a binary format, which may be longer. Set at the root.
   void set_binary(bool binary) { binary_ = binary; }
   [[nodiscard]] bool binary() const { return binary_; }
-  /// Reading ends with Stopped when it is asked to. Set at the root.
+  /// Reading throws Stopped if a stop is requested. Set at the root.
   void set_stop(std::stop_token stop) { pace_ = Pace(std::move(stop)); }
   [[nodiscard]] const std::stop_token& stop() const { return pace_.stop(); }
 

@@ -9,12 +9,12 @@ struct evp_md_ctx_st;  // of OpenSSL
 
 namespace tubecut::api {
 
-/// sha256 of what is added, part by part. Throws std::runtime_error where OpenSSL offers none.
+/// SHA-256 of the added parts. Throws std::runtime_error if OpenSSL does not offer it.
 class Sha256 {
  public:
   Sha256();
   void add(std::string_view bytes);
-  /// In lower-case hex; nothing is added after it.
+  /// Returns lower-case hex; add nothing after it.
   [[nodiscard]] std::string hex();
 
  private:

@@ -15,8 +15,9 @@ __extension__ using Wide = unsigned __int128;
 using Word = std::uint64_t;
 
 constexpr int kFraction = 52;                        // bits of a double below its first
-constexpr int kMostHalvings = 66;                    // of a number taken here: 2^-14 is the least
-constexpr Word kSeventeen = 10'000'000'000'000'000;  // the least of so many digits
+constexpr int kMostHalvings = 66;                    // of a number that this handles: 2^-14 is the
+                                                     // smallest
+constexpr Word kSeventeen = 10'000'000'000'000'000;  // the smallest with 17 digits
 constexpr Word kEight = 100'000'000;
 constexpr Word kZeros = 0x3030303030303030;  // "00000000"
 constexpr Word kDigits = 0x0f0f0f0f0f0f0f0f;
@@ -42,15 +43,15 @@ constexpr auto kPowers = [] {
 }();
 
 struct Decimal {
-  Word digits = 0;   // 16 or 17 of them, zeros at the end where fewer are enough
+  Word digits = 0;   // 16 or 17 of them, with trailing zeros if fewer are enough
   int exponent = 0;  // of the last
 };
 
-/// Of c / 2^halvings, where 2^52 < c < 2^53. With the least n for which 10^n >= 2^halvings the
-/// number is c 10^n / 2^halvings units of 10^-n, whole part of at most 17 digits, and half of the
-/// gap to the next double between 0.5 and 5 units. So at most one multiple of ten units reads back,
-/// and has the fewest digits; else the nearest unit does. Nothing where the two sides of a
-/// comparison are alike in 60 bits: what lies on an edge, or between two, goes another way.
+/// Returns the digits of c / 2^halvings, for 2^52 < c < 2^53. With the smallest n for which 10^n >=
+/// 2^halvings the number is c 10^n / 2^halvings units of 10^-n, with a whole part of at most 17
+/// digits, and half of the gap to the next double between 0.5 and 5 units. So at most one multiple
+/// of ten units reads back, and has the fewest digits; else the nearest unit does. Returns nothing
+/// if the two sides of a comparison are equal in 60 bits: std::to_chars handles ties.
 std::optional<Decimal> shortest(Word c, int halvings) {
   constexpr Word kOne = Word{1} << 60U;
   const int n = (halvings * 1233 + 4095) >> 12;  // ceil(halvings log10(2))
@@ -106,8 +107,8 @@ struct Places {
   }
 };
 
-/// `places` with the point behind the `before`-th digit after the first. Nothing where the
-/// scientific notation is shorter.
+/// Writes `places` with the point after `before` further digits. Returns nullptr if the scientific
+/// notation is shorter.
 char* print_fixed(char* to, const Places& places, int before) {
   if (before < 0) {
     if (before == -4 && places.count == 1) return nullptr;

@@ -4,8 +4,8 @@
 
 namespace tubecut::api {
 
-/// Whether a text in UTF-8 has a character that is seen: blanks of any script and what only joins,
-/// fills or varies its neighbours show nothing, so that two such texts look alike.
+/// Returns whether a text in UTF-8 has a visible character, because two texts of only blanks of any
+/// script, joiners, fillers or variation marks look alike.
 [[nodiscard]] bool shows_something(std::string_view text);
 
 }  // namespace tubecut::api

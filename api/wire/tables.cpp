@@ -66,7 +66,7 @@ Columns bevel_columns(const bevel::TableSpec& spec, const bevel::Table& t) {
 }
 
 std::vector<std::string> bevel_column_names(const bevel::TableSpec& spec) {
-  bevel::TableSpec with;  // what decides which there are, and no rows
+  bevel::TableSpec with;  // determines which columns exist, without rows
   with.root_face = spec.root_face;
   with.groove = spec.groove;
   with.untilted = spec.untilted;
@@ -145,7 +145,7 @@ Columns section_columns(const groove::Groove& g) {
       .column("p2_y_mm", of([](S s) { return s.p2.y(); }))
       .column("p3_x_mm", of([](S s) { return s.p3.x(); }))
       .column("p3_y_mm", of([](S s) { return s.p3.y(); }))
-      // 0 where the chord's section is a pair of lines and has no such axis
+      // 0 if the chord's section is a pair of lines, which has no such axis
       .column("ellipse_a_mm", of([](S s) { return s.ellipse_a.value_or(0.0); }))
       .column("area_a_mm2", of([](S s) { return s.areas.a; }))
       .column("area_b_mm2", of([](S s) { return s.areas.b; }))

@@ -10,14 +10,14 @@
 namespace tubecut::api {
 namespace {
 
-/// Controls and formats of Unicode's plane 0 (Cc, Cf, Zl, Zp), and what is no character; as the
-/// contract's pattern of a text has them.
+/// Controls and formats of Unicode's plane 0 (Cc, Cf, Zl, Zp), and non-characters; the same as in
+/// the contract's pattern of a text.
 constexpr std::pair<char32_t, char32_t> kUnseen[] = {
     {0x00, 0x1F},     {0x7F, 0x9F},     {0xAD, 0xAD},     {0x61C, 0x61C},   {0x180E, 0x180E},
     {0x200B, 0x200F}, {0x2028, 0x202E}, {0x2060, 0x206F}, {0xFEFF, 0xFEFF}, {0xFFF9, 0xFFFF}};
 
-/// Characters that take room or none and show nothing: blanks (Zs), fillers, selectors and tags. As
-/// the contract's pattern of a text has those of plane 0.
+/// Invisible characters with or without width: blanks (Zs), fillers, selectors and tags. Those of
+/// plane 0 are the same as in the contract's pattern of a text.
 constexpr std::pair<char32_t, char32_t> kBlank[] = {
     {0x20, 0x20},       {0xA0, 0xA0},       {0x34F, 0x34F},     {0x115F, 0x1160},  {0x1680, 0x1680},
     {0x17B4, 0x17B5},   {0x180B, 0x180F},   {0x2000, 0x200A},   {0x202F, 0x202F},  {0x205F, 0x205F},

@@ -3,7 +3,7 @@
 #include "core/base/names.hpp"
 #include "core/base/warning_codes.hpp"
 
-/// What the enumerations of warnings are called on the wire.
+/// Wire names of the enumerations of warnings.
 namespace tubecut {
 
 template <>

@@ -27,7 +27,7 @@ std::string spaced(std::string_view name) {
   return out;
 }
 
-/// Whatever it is, if it is a name at all.
+/// Returns the word of a name of any kind.
 std::string name_in_words(std::string_view name) {
   for (const auto kind : {Term::field, Term::value})
     if (const auto* found = row(name, kind)) return std::string(found->called);
@@ -55,7 +55,7 @@ std::string place_in_words(std::string_view pointer) {
   return out;
 }
 
-/// Takes what is read as one off the text: a pointer, a name or a number; else a character.
+/// Removes and returns one unit of the text: a pointer, a name or a number; else a character.
 std::string_view take_piece(std::string_view& text) {
   std::size_t end = 1;
   const char first = text.front();
@@ -78,8 +78,8 @@ bool begins_with_unit(std::string_view text, std::string_view unit) {
   return text.starts_with(unit) && (text.size() == unit.size() || !of_a_name(text[unit.size()]));
 }
 
-/// The number `digits`, with its unit where that follows and is taken, or where a name before it
-/// says `unit`.
+/// Returns the number `digits`, with its unit if that follows (it is removed too), or if a name
+/// before it sets `unit`.
 std::string number_in_words(std::string_view digits, std::string_view& rest, Unit unit) {
   double value = 0.0;
   const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -103,7 +103,7 @@ std::string called(std::string_view name, Term kind) {
 
 std::string in_plain_words(std::string_view sentence) {
   std::string out;
-  bool within = false;  // a word that is none of ours
+  bool within = false;  // inside a word that is not a wire name
   Unit unit = Unit::none;
   while (!sentence.empty()) {
     const auto piece = take_piece(sentence);

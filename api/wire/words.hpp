@@ -6,8 +6,8 @@
 
 namespace tubecut::api {
 
-// What docs/glossary.md calls the names on the wire, for files that people read. The console reads
-// the same lists (web/src/words.ts).
+// Names of the wire names in docs/glossary.md, for files that people read. The console reads the
+// same lists (web/src/words.ts).
 
 enum class Term { field, value };
 
@@ -19,8 +19,8 @@ struct Word {
 /// Every row, by kind and name; made from the glossary (tools/embed_words.py).
 [[nodiscard]] std::span<const Word> glossary();
 
-/// What a field, or a value (a choice, a warning's code), is called; without a row its name, with
-/// blanks.
+/// Returns the name of a field, or of a value (a choice, a warning's code); without a row, its wire
+/// name with blanks.
 [[nodiscard]] std::string called(std::string_view name, Term kind);
 
 /// A sentence of the service for people: names and pointers in words, numbers short, one sign for

@@ -10,7 +10,7 @@ namespace tubecut::api {
 
 namespace {
 
-/// What is all whole numbers of 32 bits.
+/// Returns the values if all are 32-bit integers.
 std::optional<std::vector<std::int32_t>> counts_of(const Json::Array& values,
                                                    const std::stop_token& stop) {
   std::vector<std::int32_t> out;
@@ -182,8 +182,8 @@ void Writer::field(std::string_view name, const Json& value) {
 
 void Writer::degrees(std::string_view name, double radians) { field(name, radians * kDegPerRad); }
 
-/// One after the other into the buffer, which has room for the longest: a column costs what its
-/// numbers do.
+/// Writes one after the other into the buffer, which has room for the longest, so a column costs
+/// only its numbers.
 template <class Values, class F>
 void Writer::straight(const Values& values, F print) {
   constexpr std::size_t kAtOnce = 256;

@@ -32,7 +32,7 @@ class Writer {
   explicit Writer(std::size_t reserve = 4096, std::stop_token stop = {},
                   Encoding encoding = Encoding::json);
 
-  /// One of JSON that keeps nothing but its sha256.
+  /// Returns a writer of JSON that keeps only its sha256.
   static Writer hashing(std::stop_token stop);
 
   template <class F>
@@ -82,20 +82,20 @@ class Writer {
   void column(std::string_view name, const std::vector<std::string>& values);
   void flags(std::string_view name, const std::vector<bool>& values);
 
-  /// What `body` writes is hashed, and not taken: columns that nobody asked for.
+  /// Hashes the output of `body` without keeping it: for columns that are not requested.
   template <class F>
   void unseen(F body) {
-    if (cbor_) return;  // what is hashed is JSON
+    if (cbor_) return;  // only JSON is hashed
     const Cut cut{.from = out_.size(), .first = fresh_};
     body(*this);
     leave_out(cut);
   }
 
-  /// One for an element, to be put in where it belongs: several may be written at a time.
+  /// Returns a writer for an element that is inserted later: several may be written at a time.
   [[nodiscard]] Writer part() const;
   void put(Writer part);
 
-  /// What is in this writer's encoding already.
+  /// Writes a value that is already in this writer's encoding.
   void raw(std::string_view name, std::string_view encoded);
   /// An element of an array.
   void value(double number);
@@ -118,7 +118,7 @@ class Writer {
   static constexpr std::size_t kHashed = 1u << 16;  // bytes at once
   static constexpr std::size_t kItemBytes = 128;    // most names and items have less
   void hash_so_far();
-  /// Of out_, to be left out.
+  /// A range of out_ to omit.
   struct Cut {
     std::size_t from = 0, to = 0;
     bool first = false;  // of its object: the comma behind it goes with it
@@ -149,7 +149,7 @@ class Writer {
   std::string out_;
   std::vector<Cut> cuts_;
   std::optional<CborWriter> cbor_;  // instead of out_
-  std::optional<Sha256> hash_;      // of what was in out_
+  std::optional<Sha256> hash_;      // of the previous content of out_
   Pace pace_;
   bool fresh_ = true;
 };

@@ -11,10 +11,10 @@
 namespace tubecut::api {
 namespace {
 
-/// What both parts of a joint have of it, once they are made.
+/// Data of a joint from both of its parts, once they are made.
 struct Seam {
   double weld = 0.0;                               // mm
-  std::optional<double> groove;                    // mm^3, where one partner has the end for itself
+  std::optional<double> groove;                    // mm^3, if only one partner cuts the end
   std::optional<double> least_gap, greatest_root;  // of a hole, mm
   bool whole = true;                               // every part of it is made
 };
@@ -35,7 +35,7 @@ std::vector<std::size_t> indices(const std::vector<T>& of) {
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = i;
   return out;
 }
-/// Where the finished part lies in the world; where it is still to be made, its start.
+/// Writes the position of the finished part in the world; if it is not yet made, its start.
 void write_member(const FrameJob& frame, const MadePart& part, std::size_t member, Writer& o) {
   o.field("id", frame.spec.members[member].name);
   o.field("part", name_of_part(frame, frame.part_of[member]));
@@ -125,7 +125,7 @@ void write_not_cut(const FrameJob& frame, const frame::NotCut& one, Writer& o) {
   if (one.end) o.field("end", name_of(*one.end));
 }
 
-/// A part's body is that of its own request to /v1/parts, byte by byte.
+/// Writes a part's body, equal to that of its own request to /v1/parts, byte by byte.
 void write_part(const FrameJob& frame, std::size_t i, const MadePart& part, Writer& o) {
   o.field("part", name_of_part(frame, i));
   o.field("canonical_sha256", frame.parts[i].sha256);

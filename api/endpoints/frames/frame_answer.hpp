@@ -15,57 +15,57 @@
 
 namespace tubecut::api {
 
-/// How members and joints stand in the request where pieces in line are made one.
+/// Maps members and joints to their indices in the request, if pieces in line are merged.
 struct Merges {
   std::vector<std::string> ids;                  // of the request's members
   std::vector<frame::PieceOf> of;                // of each of them
   std::vector<std::vector<std::size_t>> pieces;  // of each member of the frame, from its start on
-  std::vector<double> off;                       // how far their ends lie beside its axis, mm
+  std::vector<double> off;                       // distance of their ends from its axis, mm
   std::vector<std::size_t> joints;               // of each of the frame's: which it is
 };
 
-/// A frame whose joints are found, and its parts as requests.
+/// A frame with its detected joints, and its parts as requests.
 struct FrameJob : FrameRequest, FrameParts {
   frame::Frame frame = {};
   std::vector<std::size_t> part_of = {};  // of each member
 
-  /// What a member asks for itself, without names; nullptr where it cannot be read.
+  /// Returns the member's own request, without names; nullptr if it is not valid.
   [[nodiscard]] const Parts::Spec* own(std::size_t member) const {
     return forms[form_of[member]].get();
   }
-  /// Where its part's start stands in the world.
+  /// Returns the position of its part's start in the world.
   [[nodiscard]] joint::MemberFrame start_of(std::size_t member) const {
     return laid[member].stand(frame.pieces[member].frame);
   }
   std::optional<Merges> merged = {};
 };
 
-/// A part as /v1/parts answers, or why there is none.
+/// A part as /v1/parts answers, or the reason for its absence.
 struct MadePart {
   std::unique_ptr<const Worked<Parts>> made;
   std::optional<Problem> problem;
 
   [[nodiscard]] bool is_open() const { return !made && !problem; }  // still to be made
 };
-using MadeParts = std::vector<MadePart>;  // in the order of the frame's; none yet, or all
+using MadeParts = std::vector<MadePart>;  // in the frame's order; empty before any is made, or all
 
-// Members of the answer, each written from its name on. Where no part is made yet, what only a
-// part tells is left out.
+// Members of the answer, each written from its name on. If no part is made yet, values that need
+// one are omitted.
 
 void write_members(const FrameJob& frame, const MadeParts& made, Writer& w);
 void write_joints(const FrameJob& frame, const MadeParts& made, Writer& w);
 void write_cut_list(const FrameJob& frame, const MadeParts& made, Writer& w);
 void write_totals(const FrameJob& frame, const MadeParts& made, Writer& w);
 void write_not_cut(const FrameJob& frame, Writer& w);
-/// Members of more pieces than one; nothing where none were to be merged.
+/// Writes members that consist of several pieces; nothing if no merge was requested.
 void write_merged(const FrameJob& frame, Writer& w);
-/// A part's answer is that of its own request to /v1/parts, byte by byte.
+/// Writes each part's answer, equal to that of its own request to /v1/parts, byte by byte.
 void write_parts(const FrameJob& frame, const MadeParts& made, Writer& w);
 
 [[nodiscard]] const std::string& name_of_part(const FrameJob& frame, std::size_t part);
 [[nodiscard]] std::vector<std::string> members_of_part(const FrameJob& frame, std::size_t part);
 
-/// Where a finished part lies in the world as one of its members; rows are its x, y and z there.
+/// Position of a finished part in the world as one of its members; rows are its x, y and z there.
 struct FramePlace {
   Eigen::Vector3d origin;
   Eigen::Matrix3d rows;
@@ -73,8 +73,8 @@ struct FramePlace {
 [[nodiscard]] FramePlace place_of(const FrameJob& frame, const Worked<Parts>& part,
                                   std::size_t member);
 
-/// What stands in the cut list of one part behind its name, given to `row.field(name, value)` and
-/// `row.column(name, texts)`.
+/// Writes the columns of the cut list of one part after its name, given to `row.field(name, value)`
+/// and `row.column(name, texts)`.
 template <class Row>
 void cut_list_row(const FrameJob& frame, std::size_t i, const MadePart& part, Row& row) {
   const auto& m = frame.spec.members[frame.parts[i].members.front()];

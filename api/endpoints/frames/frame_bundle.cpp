@@ -26,7 +26,7 @@ struct Bundled {
   std::string name, format, media, sha256;
   std::size_t bytes = 0;
 };
-/// A file that is asked for and not there.
+/// A requested file that was not made.
 struct LeftOut {
   std::string_view file;
   Problem why;
@@ -46,7 +46,7 @@ class Bundle {
     return {std::move(name), std::string(format), std::string(media), sha256(content, stop_),
             content.size()};
   }
-  /// The name, or with a number behind it where another has it, whatever the case of its letters.
+  /// Returns the name, with a number appended if another file has it, ignoring case.
   std::string own(const std::string& name) {
     for (int i = 1;; ++i) {
       auto one = i == 1 ? name : name + "-" + std::to_string(i);
@@ -64,7 +64,8 @@ class Bundle {
   std::stop_token stop_;
 };
 
-/// What every file system takes in a name; the hash behind it makes it differ from a device's.
+/// Returns a name that every file system accepts; the hash at its end makes it differ from device
+/// names.
 std::string file_name(std::string_view text, std::string_view sha256) {
   constexpr std::size_t kLongest = 120;  // bytes; with hash, number and ending less than 255
   std::string out;
@@ -86,7 +87,7 @@ References::iterator entry(References& all, std::string_view name) {
   return std::ranges::find(all, name, &References::value_type::first);
 }
 
-/// How many of a part are to be made: one a member, of each of the frames that the job asks for.
+/// Returns the quantity of a part: one per member, times the number of frames of the job.
 std::uint64_t quantity_of(const FrameJob& frame, std::size_t i, const Caption& caption) {
   auto all = caption.reference;
   const auto frames = entry(all, "quantity");
@@ -147,7 +148,7 @@ Folder write_folder(const FrameJob& frame, std::size_t i, const Worked<Parts>& p
   caption.options = {};
   caption.reference = reference_of(frame, i, of_frame);
   caption.members = members_of_part(frame, i);
-  auto program = caption;  // what else the query says is of those alone
+  auto program = caption;  // the query's other options apply only to those
   program.options = of_frame.options;
   program.options.acknowledged = acknowledged_of(part.answer, of_frame.options.acknowledged);
   if (const auto& tabs = of_frame.options.tabs; tabs && !has_tabs(part, *tabs))

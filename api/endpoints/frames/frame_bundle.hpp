@@ -9,10 +9,10 @@
 
 namespace tubecut::api {
 
-/// A shop's packet as a zip archive: of each part a folder with the files asked for, the cut list
-/// as CSV, the request as understood, and `manifest.json`: every file with its SHA-256, every part
-/// with its verdict and hashes, and what is not there, with why. Files are called by the
-/// reference's part and the member's id, and the first digits of their part's hash.
+/// Returns a shop's packet as a zip archive: for each part a folder with the requested files, the
+/// cut list as CSV, the request with defaults applied, and `manifest.json`: every file with its
+/// SHA-256, every part with its verdict and hashes, and the omitted files with their reasons. File
+/// names contain the reference's part, the member's id, and the first digits of their part's hash.
 /// Throws UnfitOption (acknowledge: a code that no part warns of).
 [[nodiscard]] std::string frame_bundle(const FrameJob& frame, const MadeParts& made,
                                        const Caption& caption);

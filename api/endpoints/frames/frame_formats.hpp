@@ -11,8 +11,8 @@ namespace tubecut::api {
 [[nodiscard]] std::string cut_list_csv(const FrameJob& frame, const MadeParts& made,
                                        const Caption& caption);
 
-/// An assembly as ISO 10303-21: each part a solid, once, and each member one of these in its place
-/// in the world. Of members without a part the head has the warning. Throws UnfitOption where a
+/// Returns an assembly as ISO 10303-21: each part a solid, once, and each member an instance in its
+/// place in the world. If members have no part, the head has the warning. Throws UnfitOption if a
 /// part's holes meet.
 [[nodiscard]] std::string frame_step(const FrameJob& frame, const MadeParts& made,
                                      const Caption& caption);

@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Numbers are written as far as they matter, so that what is alike is written alike: lengths to
-/// 1e-6 mm, angles to 1e-11 deg, directions to 1e-12: an axis may be given by a far foot.
+/// Rounds numbers to their significant digits, so that equal parts have equal texts: lengths to
+/// 1e-6 mm, angles to 1e-11 deg, directions to 1e-12, because an axis may be given by a far foot.
 Json tidy(double value, double to) {
   const double out = std::round(value * to) / to;
   return Json{out == 0.0 ? 0.0 : out};
@@ -76,7 +76,7 @@ struct Fields {
   }
 };
 
-/// What the parts are called. Without ids nothing is named but what stands on a part.
+/// Names of the parts. Without ids, only the marks on a part are named.
 struct Names {
   bool ids = false;
   std::vector<std::string> of_members;  // of the part that each is
@@ -122,7 +122,7 @@ class PartWriter {
     return end == joint::End::start ? piece.start : piece.finish;
   }
 
-  /// What the joints of an end say of a field; null where none does.
+  /// Returns the value of a field that the joints of an end give; null if no joint gives one.
   [[nodiscard]] Result<Json> said_of(const std::vector<frame::Cutter>& cutters, const char* field,
                                      Json OwnCut::*of) const {
     const Json* first = nullptr;
@@ -141,7 +141,7 @@ class PartWriter {
     return first == nullptr ? Json{} : *first;
   }
 
-  /// How an end is cut: what it says itself, else what its joints say, else the defaults.
+  /// Returns the cut of an end: its own values, else those of its joints, else the defaults.
   [[nodiscard]] Result<Json::Object> cut(std::size_t member, joint::End end) const {
     auto out = request_.end;
     const auto own = own_ends_.find({member, end});
@@ -165,7 +165,7 @@ class PartWriter {
     return own == own_ends_.end() ? Json{} : request_.ends[own->second].cut.kerf;
   }
 
-  /// Left square: its kerf is all there is to say.
+  /// Returns an end that is left square: it has only a kerf.
   [[nodiscard]] Result<Json> square_end(std::size_t member, joint::End end) const {
     Json::Object out{{"square_at_mm", Json{0.0}}};
     const auto own = own_ends_.find({member, end});
@@ -302,7 +302,7 @@ Result<Forms> forms(const PartWriter& writer, const Names& names, const std::sto
   return out;
 }
 
-/// Members as shapes, with the names of the parts that they are so far.
+/// Returns members as shapes, with the names of their current parts.
 Result<std::vector<frame::Shape>> shapes(const PartWriter& writer, const Forms& forms,
                                          const Names& names) {
   std::vector<frame::Shape> out;
@@ -315,8 +315,8 @@ Result<std::vector<frame::Shape>> shapes(const PartWriter& writer, const Forms& 
   return out;
 }
 
-/// At first nothing tells parts apart but their shape; then what stands on them does too, by the
-/// part that it is: until no group falls apart any more.
+/// Groups parts first by only their shape, then also by the current parts set on them, until no
+/// group splits any more.
 Result<std::vector<frame::AlikeGroup>> gathered(const PartWriter& writer, const Forms& known,
                                                 const FrameRequest& request, Names& names,
                                                 const std::stop_token& stop) {

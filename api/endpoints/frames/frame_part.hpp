@@ -19,22 +19,21 @@ struct FramePart {
   std::size_t by = 0;                // the member whose own part is made for all of them
   double differs = 0.0;              // from it the parts of the others do nowhere by more, mm
   Json request = {};
-  std::string sha256 =
-      {};  // of the request without names, but for those of the parts that stand on it
+  std::string sha256 = {};  // of the request without names, except those of the parts set on it
 };
 
 /// The parts, and how each member has its own.
 struct FrameParts {
   std::vector<FramePart> parts;
   std::vector<frame::Laid> laid;  // of each member onto the one its part is made by
-  // Members by what they would ask for themselves, without names; none where it cannot be read.
+  // Members by their own requests, without names; nullptr if a request is not valid.
   std::vector<std::unique_ptr<const Parts::Spec>> forms;
   std::vector<std::size_t> form_of;  // of each member
 };
 
-/// The part of every member, each made once: members are one part where their finished surfaces
-/// differ by no more than is asked for.
-/// Errors  joint_contradicts (joints/i/...: two joints of one end ask for other cuts),
+/// Returns the part of every member, each made once: members share one part if their finished
+/// surfaces differ by at most the requested distance.
+/// Errors  joint_contradicts (joints/i/...: two joints of one end require different cuts),
 ///         unsupported_combination (ends/i/...: the end is left square), cancelled.
 [[nodiscard]] Result<FrameParts> parts_of(const FrameRequest& request, const frame::Frame& frame,
                                           const std::stop_token& stop);

@@ -39,7 +39,7 @@ std::string from(const Steps& steps, std::size_t first) {
   return out;
 }
 
-/// The piece that a member's end is the end of, by what the request has.
+/// Returns the piece that has a member's end, with the request's index.
 std::string end_in_request(const FrameJob& frame, std::size_t member, bool finish) {
   if (!frame.merged) return "/" + std::to_string(member) + (finish ? "/end" : "/start");
   const auto& pieces = frame.merged->pieces[member];
@@ -64,7 +64,7 @@ std::string other_at(const FrameJob& frame, std::size_t other) {
   return "/others/" + std::to_string(frame.others[other]);
 }
 
-/// What one part's request has from where.
+/// The sources of one part's request in the frame's request.
 class Sources {
  public:
   Sources(const FrameJob& frame, std::size_t part)
@@ -106,7 +106,7 @@ class Sources {
     return member_at(frame_, one.branch == member_ ? one.chord : one.branch) + (size ? rest : "");
   }
 
-  /// How an end is cut: by itself, else by its joints, else by the defaults.
+  /// Returns the source of an end's cut: the end, else its joints, else the defaults.
   [[nodiscard]] std::string of_cut(const Steps& steps, bool finish) const {
     using Field = std::pair<std::string_view, Json OwnCut::*>;
     static constexpr std::array kFields{

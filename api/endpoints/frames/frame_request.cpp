@@ -66,7 +66,7 @@ std::optional<Place> known(Reader& in, const Places& places, const std::string& 
   return std::nullopt;
 }
 
-/// Does the branch come into the chord's wall, so that it has a hole unless none is asked for?
+/// Returns whether the branch enters the chord's wall, so that it has a hole by default.
 bool enters(How::Kind kind) { return kind == How::Kind::set_in || kind == How::Kind::through; }
 
 /// `gap_mm`, `depth_mm`, `plane` and `hole`, of a kind.
@@ -92,7 +92,7 @@ void check_hole_groove(Reader& in, const How& how, const bevel::GrooveRule& groo
              in.find("groove"));
 }
 
-/// Zones that name the root gap leave none to the joint.
+/// Checks that the joint has no gap if its zones set the root gap.
 void check_zone_gaps(Reader& in, const How& how, const bevel::GrooveRule& groove) {
   const auto* zoned = std::get_if<bevel::ZonedGroove>(&groove);
   if (zoned != nullptr && zoned->has_root_gaps() && how.gap > 0.0)
@@ -113,7 +113,8 @@ void check_root_face(Reader& in, const bevel::TableSpec& cut) {
              in.find("root_face_mm"));
 }
 
-/// How found joints are made, and how ends and holes are cut where their joint says nothing.
+/// Decodes how detected joints are made, and how ends and holes are cut if their joint does not
+/// override it.
 bevel::TableSpec decode_defaults(Reader& in, FrameRequest& out) {
   const bool laser = out.preset == Preset::tube_laser;
   const auto decode = [&](Reader& d) {
@@ -151,7 +152,7 @@ Json echoed(Reader& in, std::string_view name) {
   return {};
 }
 
-/// What a joint or an end says instead of `cut`, which stands where it says nothing.
+/// Decodes the overrides of a joint or an end; `cut` applies to the rest.
 OwnCut decode_own_cut(Reader& in, Preset preset, bevel::TableSpec& cut) {
   const bool laser = preset == Preset::tube_laser;
   for (const auto* name : {"groove", "root_face_mm", "contact"}) in.note(name);
@@ -242,7 +243,8 @@ void decode_between(Reader& in, const Places& places, frame::StatedJoint& out) {
   out.other = b->other;
 }
 
-/// An end is named where it is not found: of the others, and of what is only stated.
+/// Checks that an end is named if it is not detected: for `others`, and for joints that are only
+/// stated.
 void decode_named_end(Reader& in, bool by_nearness, frame::StatedJoint& out) {
   in.note("end");
   if (!in.has("end")) return;
@@ -278,7 +280,8 @@ void decode_joint(Reader& in, const Places& places, const bevel::TableSpec& cut,
   out.spec.joints.push_back(joint);
 }
 
-/// Of more others than may be named, those that no joint names cut nothing: they do not count.
+/// If there are more others than may be named, omits those that no joint names, because they cut
+/// nothing.
 void leave_out_others(Reader& in, FrameRequest& out) {
   const auto given = out.spec.others.size();
   std::vector<bool> named(given, given <= kMostOthers);

@@ -9,7 +9,8 @@
 
 namespace tubecut::api {
 
-/// What a stated joint or an end says of its cuts beside `defaults`; null where it says nothing.
+/// Values of the cuts that a stated joint or an end sets in place of `defaults`; null for the
+/// others.
 struct OwnCut {
   Json groove = {}, contact = {}, root_face = {};
   Json tilt = {};                  // of a joint
@@ -17,7 +18,7 @@ struct OwnCut {
   friend bool operator==(const OwnCut&, const OwnCut&) = default;
 };
 
-/// How one end is cut, whatever its joints and the defaults say.
+/// The cut of one end, which overrides its joints and the defaults.
 struct OwnEnd {
   std::size_t member = 0;
   joint::End end = joint::End::start;
@@ -31,13 +32,15 @@ struct FrameRequest {
   std::vector<double> walls;        // of each member as it is given, perhaps out of range
   std::vector<std::size_t> others;  // of each of the others: which of the request's it is
   std::size_t others_left_out = 0;  // of too many, those that no joint names
-  Json::Object end;                 // how an end is cut by default, as a part's end says it
+  Json::Object end;                 // default cut of an end, in the form of a part's end
   Json tilt;                        // of a hole by default
-  double alike_within = 0.0;        // mm: parts whose finished surfaces differ by no more are one
+  double alike_within = 0.0;        // mm: if finished surfaces differ by at most this, their parts
+                                    // are one
   std::vector<OwnCut> cuts;         // of each stated joint
   std::vector<OwnEnd> ends;         // each end once
   bool merge = false;               // pieces in line are one member
-  Json::Object once;                // what every part has once: preset, kerf, torch and the like
+  Json::Object once;                // values that every part has once: preset, kerf, torch and
+                                    // others
 };
 
 [[nodiscard]] FrameRequest decode_frame_request(Reader& in);

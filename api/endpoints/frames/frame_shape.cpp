@@ -25,7 +25,8 @@ std::string text(const Json& value) {
   return found == nullptr ? std::string() : *found;
 }
 
-/// Without where it stands; what a round one calls its height is a size of a rectangular one.
+/// Returns the partner without its position; the `height` of a round one is its position, that of a
+/// rectangular one a size.
 std::string partner_key(const Json& partner) {
   static constexpr std::array<std::string_view, 9> kRound{
       "axis",         "up",        "inwards",  "point_mm", "normal", "inclination_deg",
@@ -37,7 +38,7 @@ std::string partner_key(const Json& partner) {
   return dump(round ? without(partner, kRound) : without(partner, kOther));
 }
 
-/// How the end is cut; and of each partner what it is and how it is joined.
+/// Returns the cut of the end, and the type and joint of each partner.
 std::string end_key(const Json& end, std::vector<std::string>& partners) {
   static constexpr std::array<std::string_view, 2> kPlaced{"cutters", "joints"};
   static constexpr std::array<std::string_view, 1> kIndex{"cutter"};

@@ -5,8 +5,9 @@
 
 namespace tubecut::api {
 
-/// What of a part's request to /v1/parts must be another's to the letter for the two to be alike:
-/// all but where its partners, holes and marks are, and how long it is. `form` is left to set.
+/// Returns the content of a part's request to /v1/parts that must be identical for two parts to be
+/// equal: all except the positions of its partners, holes and marks, and its length. `form` remains
+/// to be set.
 [[nodiscard]] frame::Shape shape_of(const Json& part);
 
 }  // namespace tubecut::api

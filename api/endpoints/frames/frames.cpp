@@ -25,7 +25,7 @@ Run inner_run(const std::stop_token& stop) {
           .foresee = [](const Work&) {}};
 }
 
-/// Nothing about one part alone.
+/// Returns whether the error concerns the whole request, not only one part.
 bool spoils_all(ErrorCode code) {
   return info(code).kind == ErrorKind::internal || code == ErrorCode::cancelled;
 }
@@ -49,7 +49,7 @@ Result<MadePart> make(const Json& request, const std::stop_token& stop) {
   return out;
 }
 
-/// What both ways to answer have: parts within the answer, and parts asked for line by line.
+/// The common part of both answers: with the parts inside, and with the parts as lines.
 struct FrameBase {
   using Spec = FrameJob;
   using Out = MadeParts;
@@ -72,7 +72,7 @@ struct FrameBase {
     return out;
   }
 
-  /// Pieces in line made one, if asked for.
+  /// Merges pieces in line, if requested.
   static Result<void> merge(Spec& spec, const std::stop_token& stop) {
     if (!spec.merge) return {};
     frame::MergeSpec besides;
@@ -160,8 +160,9 @@ struct Frames : FrameBase {
     return out;
   }
 
-  /// Those of the ends and of members; then of each part one of a code, and why one is not there.
-  /// Numbers that look like another unit's are the frame's own, where the frame itself says so.
+  /// Returns the warnings of the ends and of members, then one warning of each code per part, and
+  /// the reason if a part is missing. Numbers that may be in another unit count for the frame if
+  /// the frame itself has that warning.
   static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
     auto all = spec.frame.warnings;
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -172,7 +173,7 @@ struct Frames : FrameBase {
         all.push_back({.code = WarningCode::no_part, .member = at, .detail = told(name, *why)});
         continue;
       }
-      // What the frame says itself.
+      // Warnings of the frame itself.
       std::vector<WarningCode> said{WarningCode::unit_suspicion, WarningCode::ghost_contact};
       for (const auto& w : out[i].made->answer.warnings) {
         if (info(w.code).severity != Severity::cut || std::ranges::count(said, w.code) > 0)
@@ -211,14 +212,14 @@ struct Frames : FrameBase {
     write_merged(spec, w);
     if (spec.others_left_out > 0) w.field("others_left_out", spec.others_left_out);
   }
-  /// Whole answers say which engine made them, so they stand beside the result: its hash is of
-  /// numbers, and holds each part's.
+  /// Whole answers name their engine, so they are next to the result: its hash covers numbers, and
+  /// contains each part's.
   static void encode_beside(const Spec& spec, const Out& out, Writer& w) {
     write_parts(spec, out, w);
   }
 };
 
-/// The frame alone, and its parts as they may be asked for.
+/// Only the frame, and its parts as requests.
 struct FrameLines : FrameBase {
   static void count(const Spec& spec, Work& work) { count_members(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token&) {

@@ -18,17 +18,17 @@ constexpr auto kMembers = static_cast<std::size_t>(limit::members_max);
 
 constexpr std::size_t kMostJoints = 1'000;  // of one member, with others
 
-/// A member, and what it says of its joints, the others still by name.
+/// A member, and its statements about its joints, with the other members still by name.
 struct NamedMember {
   joint::Member member;
   std::vector<std::pair<std::string, joint::Joint>> joints;
 };
 
-/// What a member may be beside what the service cuts: only to know where it is.
+/// Range of a member that the service does not cut: only its position matters.
 constexpr Range kSomewhere{.min = -1e8, .max = 1e8};
 constexpr Range kSomeSize{.min = 0.0, .max = 1e5, .open_min = true};
 
-/// Diameter and wall, whatever they are.
+/// Decodes diameter and wall of any size.
 TubeSection decode_any_section(Reader& in) {
   if (in.has("size")) return decode_tube_section(in, true);
   TubeSection out;
@@ -168,8 +168,8 @@ NamedNode decode_named_node(Reader& in) {
 
 namespace {
 
-/// Which members are out of range and nothing else, where another one is not: those have no part,
-/// and the others stand.
+/// Returns the members that are only out of range, if another one is not: those have no part, and
+/// the others remain valid.
 std::vector<bool> out_of_range(Reader& in) {
   const auto* field = in.find("members");
   const auto* items = field == nullptr ? nullptr : field->as<Json::Array>();
@@ -192,7 +192,8 @@ std::vector<bool> out_of_range(Reader& in) {
 }  // namespace
 
 NamedMembers decode_named_members(Reader& in) {
-  constexpr double kThickest = 0.9;  // of a radius: what a wall is drawn as that is beyond it
+  constexpr double kThickest = 0.9;  // fraction of a radius: drawn thickness of a wall that exceeds
+                                     // it
   NamedMembers out;
   const auto any_size = out_of_range(in);
   for (auto& one : in.array("members", {.min = 1, .max = kMembers}, [&](Reader& m) {

@@ -14,18 +14,18 @@ namespace tubecut::api {
 /// Places of a node's members by id.
 struct MemberIds {
   std::map<std::string, std::size_t, std::less<>> places;
-  bool complete = true;  // every member has told its id: an unknown one is wrong
+  bool complete = true;  // all ids are known, so an unknown one is an error
 };
-/// The member whose id is `id`; `pointer` names the field for an issue.
+/// Returns the member whose id is `id`; `pointer` names the field for an issue.
 std::size_t known_member(Reader& in, const MemberIds& ids, const std::string& id,
                          const std::string& pointer);
-/// `members` of a frame, whose joints are said elsewhere.
+/// `members` of a frame, whose joints are given elsewhere.
 struct NamedMembers {
   std::vector<joint::Member> members;
   std::vector<double> walls;  // as they are given: of one out of range its member has another
   MemberIds ids;
 };
-/// One out of range has no issue, unless all are: its part will tell.
+/// If a member is out of range, it has no issue unless all are, because its part reports the error.
 [[nodiscard]] NamedMembers decode_named_members(Reader& in);
 
 struct NamedNode {
@@ -34,7 +34,7 @@ struct NamedNode {
 };
 [[nodiscard]] NamedNode decode_named_node(Reader& in);
 
-/// `members` and `connect`: what /v1/nodes asks, and what stands inside `node` elsewhere.
+/// Decodes `members` and `connect`: the content of a /v1/nodes request, and of `node` elsewhere.
 [[nodiscard]] joint::NodeSpec decode_node(Reader& in);
 
 /// One end of one member of a node.

@@ -24,13 +24,13 @@ struct NodesRequest {
   joint::NodeSpec node;
   bool profiles = false;
   joint::Sampling sampling;
-  std::optional<bevel::TableSpec> tables;  // how, if asked for
+  std::optional<bevel::TableSpec> tables;  // options, if requested
   std::vector<std::string> columns;        // of theirs that are printed; empty: all
   joint::Nodes solved;                     // once resolved
 };
 struct NodesAnswer {
   std::vector<joint::Overlap> overlaps;
-  // Of each end, if asked for; else there are none.
+  // One per end, if requested; else empty.
   std::vector<std::optional<joint::Intersection>> profiles;
   std::vector<std::optional<bevel::EndTable>> tables;
 };
@@ -65,7 +65,7 @@ Include decode_include(Reader& in) {
   return out;
 }
 
-/// `tables` tells how the tables are made: it goes with their name in `include`.
+/// Decodes `tables`, the options of the tables: requires "tables" in `include`.
 std::optional<bevel::TableSpec> decode_tables(Reader& in, const Include& include,
                                               const joint::Sampling& sampling,
                                               std::vector<std::string>& columns) {
@@ -159,7 +159,7 @@ struct Nodes {
     return out;
   }
 
-  /// What is wrong with how the tables are made stands in `tables`.
+  /// Moves an error in the options of the tables to `tables`.
   static Error in_tables(Error error) {
     for (auto& issue : error.issues)
       if (issue.member.starts_with("groove")) issue.member = "tables/" + issue.member;
@@ -201,7 +201,7 @@ struct Nodes {
                                  (why->hint.empty() ? "" : ": " + why->hint)});
       else
         for (const auto& warning : out.tables[i]->table->warnings)
-          if (warning.code != WarningCode::near_parallel)  // the node says it too
+          if (warning.code != WarningCode::near_parallel)  // the node reports it too
             all.push_back({.code = warning.code, .member = at, .detail = warning.detail});
     }
     return all;
@@ -232,7 +232,8 @@ struct Nodes {
   }
 
   static void encode(const Spec& spec, const Out& out, Writer& w, const Turns& turns) {
-    constexpr std::size_t kAtOnce = 16;  // ends whose text is held beside the answer's
+    constexpr std::size_t kAtOnce = 16;  // number of ends whose text is held in addition to the
+                                         // answer's
     const auto& ends = spec.solved.ends;
     std::vector<Writer> parts;
     w.array("ends", ends, [&](Writer& each, const joint::MemberEnd& end) {

@@ -8,10 +8,10 @@
 
 namespace tubecut::api {
 
-/// A part of core's spec, and what the request calls it.
+/// A part of core's spec, and its name in the request.
 struct Renaming {
-  std::string from, to;   // "cutters/1", and all below it; "start/": what is below it alone
-  bool with_rest = true;  // what stands below keeps its name; else all of it is `to`
+  std::string from, to;   // "cutters/1", and all below it; "start/": only the fields below it
+  bool with_rest = true;  // fields below keep their names; else all of them become `to`
 };
 using Renamings = std::vector<Renaming>;
 

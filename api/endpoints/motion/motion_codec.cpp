@@ -25,12 +25,12 @@ constexpr CountRange kPoints{.min = 3, .max = static_cast<std::size_t>(limit::no
 constexpr Range kUnwrappedDeg{.min = -36'000.0, .max = 36'000.0};
 constexpr Range kBevelDeg{.min = -85.0, .max = 85.0};
 
-/// What of a table's points tells their sign of B.
+/// The values of a table's points that determine their sign of B.
 struct TorchLines {
   std::vector<double> inner, outer;
 };
 
-/// A bevel table's own points, unchanged: the torch line on the asked surface.
+/// Decodes a bevel table's own points, unchanged: the torch line on the requested surface.
 TorchLines decode_table_points(Reader& in, Surface surface, motion::CutPath& out) {
   for (const auto& name : bevel_column_names()) in.note(name);
   out.phi = in.angle_column("phi_deg", kPoints, kUnwrappedDeg);
@@ -56,7 +56,7 @@ std::optional<BSign> decode_b_sign(Reader& in) {
   return sign;
 }
 
-/// `outer_edge_into_part` is towards +z only where the part is.
+/// Checks the sign: `outer_edge_into_part` is towards +z only on the part's side.
 void check_b_sign(Reader& in, BSign sign, Scrap scrap) {
   if (sign != BSign::outer_edge_into_part || scrap == Scrap::minus_z) return;
   in.issue({.code = ErrorCode::unsupported_combination,
@@ -66,10 +66,10 @@ void check_b_sign(Reader& in, BSign sign, Scrap scrap) {
            in.find("b_sign"));
 }
 
-/// A torch swung by B passes both walls at heights wall tan B apart: points that say otherwise are
-/// of another wall, or count B the other way.
+/// Checks that both walls are passed at heights that differ by wall tan B. Otherwise the points
+/// belong to another wall, or count B in reverse.
 void check_torch_lines(Reader& in, const motion::CutPath& contour, const TorchLines& lines) {
-  constexpr double kApart = 1e-3;  // mm; rounding of what was printed is far below
+  constexpr double kApart = 1e-3;  // mm; far above the rounding of printed numbers
   const auto n = std::min({contour.b.size(), lines.inner.size(), lines.outer.size()});
   for (std::size_t i = 0; i < n; ++i) {
     const double apart = lines.outer[i] - lines.inner[i];

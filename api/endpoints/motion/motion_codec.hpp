@@ -15,8 +15,8 @@
 
 namespace tubecut::api {
 
-/// Where a schedule's cut comes from: computed here (a bevel table, a mill path, all cuts of a
-/// part), or given.
+/// Source of a schedule's cut: computed here (a bevel table, a mill path, all cuts of a part), or
+/// given.
 using CutSource = std::variant<BevelTableRequest, groove::MillPathSpec, motion::CutPath,
                                motion::AxisColumns, PartRequest>;
 
@@ -29,7 +29,7 @@ struct ScheduleRequest {
   std::int64_t max_periods = 0;
 };
 
-/// The job with its cut computed; checks and warnings of that cut beside it.
+/// The job with its computed cut, and the checks and warnings of that cut.
 struct ScheduleJob {
   motion::ScheduleSpec spec;
   std::optional<torch::ProgramSpec> program;  // of a part, whose cuts are not in `spec`
@@ -43,8 +43,8 @@ struct ScheduleJob {
 
 /// A part with its members found.
 ///
-/// Errors  those of the part, their members under `part`; unsupported_combination (a hole whose
-///         torch leans across).
+/// Errors  those of the part, with members under `part`; unsupported_combination (a hole whose
+///         torch tilts across).
 [[nodiscard]] Result<ScheduleRequest> resolve(ScheduleRequest request, const std::stop_token& stop);
 
 /// Of a resolved request.

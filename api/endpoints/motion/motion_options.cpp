@@ -58,7 +58,7 @@ motion::Expert decode_expert(Reader& in) {
   return out;
 }
 
-/// What only a contour has: where to start, which way round, leads, a sector.
+/// Decodes the fields that only a contour has: start, direction, leads, a sector.
 void decode_course(Reader& in, bool hole, motion::Motion& out) {
   if (in.find("start_phi_deg") != nullptr && *in.find("start_phi_deg") == Json{"auto"}) {
     in.note("start_phi_deg");
@@ -79,7 +79,7 @@ void decode_tolerances(Reader& in, motion::Motion& out) {
   out.jerk = in.flag("jerk", true);
 }
 
-/// Of a machine that lifts its torch; where it does not, its control has them.
+/// Decodes heights, for a machine that lifts its torch; otherwise its control has them.
 void decode_heights(Reader& in, const motion::Machine& machine, torch::Setup& out) {
   const auto* const cutter = std::get_if<motion::FiveAxisCutter>(&machine.kinematics);
   if (cutter != nullptr) {
@@ -109,7 +109,7 @@ torch::Tabs decode_tabs(Reader& in) {
   return out;
 }
 
-/// The strokes' own speed, mm/s, or none.
+/// Returns the speed of the strokes, mm/s, if it is given.
 std::optional<double> decode_mark_options(Reader& in) {
   const auto speed = in.optional_number("speed_mm_min", kTorchSpeed);
   return speed ? std::optional(*speed / 60.0) : std::nullopt;

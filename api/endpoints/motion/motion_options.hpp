@@ -11,7 +11,7 @@ inline constexpr Range kBeam{.min = 0.0, .max = 1e5};  // mm of metal
 /// How a cut is to be run: a request's `motion`.
 [[nodiscard]] motion::Motion decode_motion(Reader& in, const CutSource& cut);
 
-/// The same of a whole part, with what is done round each of its cuts.
+/// The same for a whole part, with the moves between its cuts.
 struct PartMotion {
   motion::Motion motion = {};
   torch::Setup setup = {};

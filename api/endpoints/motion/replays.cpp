@@ -26,7 +26,8 @@ struct Schedule {
   std::vector<motion::Event> events;
 };
 
-/// Which stretch is what, and when the torch burns: what the counts do not tell.
+/// Decodes the type of each segment, and the torch's on and off times, because the counts do not
+/// contain them.
 void decode_segments(Reader& in, Schedule& out) {
   constexpr auto kLast = static_cast<int>(kMostPeriods);
   // Of 64 branches, each through both sides, and two ends, each in as many stretches as it may have

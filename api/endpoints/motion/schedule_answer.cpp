@@ -62,7 +62,8 @@ void encode_report(const motion::Report& r, const std::vector<AxisSums>& sums, W
 
 namespace {
 
-/// Of a cut alone: with a lead, and of a stretch or a mark, it ends elsewhere than it begins.
+/// For a single cut: with a lead, and for a segment or a mark, it ends at another point than its
+/// start.
 std::vector<AxisSums> sums_of(const ScheduleJob& job, const torch::ProgramCut& cut,
                               const torch::Segment& segment) {
   const bool closed = !job.program->setup.lead && !cut.way.points.stretch && !cut.cut.mark;

@@ -10,7 +10,7 @@
 
 namespace tubecut::api {
 
-/// What a report tells of an axis' counts.
+/// Figures of an axis' counts for a report.
 struct AxisSums {
   std::string name = {};
   std::int64_t peak = 0;

@@ -38,8 +38,8 @@ struct Lettering {
 /// The smallest lettering on paper, mm: smaller text cannot be read at the machine.
 inline constexpr double kLeastText = 2.2;
 
-/// `l`, as much smaller as the text needs to fit into `room` mm, but not below kLeastText: what is
-/// wider even then is for `wrapped` or `shortened`.
+/// Returns `l`, reduced until the text fits into `room` mm, but not below kLeastText: if it is
+/// still wider, use `wrapped` or `shortened`.
 [[nodiscard]] Lettering fitted(std::string_view text, Lettering l, double room);
 
 /// The text as lines within `room` mm, broken at blanks, and within words that are wider.
@@ -58,7 +58,7 @@ struct DrawingBox {
   [[nodiscard]] bool meets(const DrawingBox& other) const;
 };
 
-/// Where a text stands, in the widest of the fonts.
+/// Returns the box of a text, in the widest of the fonts.
 [[nodiscard]] DrawingBox text_box(DrawingPoint at, std::string_view what, const Lettering& l);
 
 /// One thing drawn.
@@ -74,8 +74,7 @@ struct Ink {
 /// A drawing in millimetres, 1:1. Printed by svg_sheets.hpp and pdf_sheets.hpp.
 class Canvas {
  public:
-  /// The sheet's size; its origin is the lower left corner. Throws Stopped where something is
-  /// drawn.
+  /// The sheet's size; its origin is the lower left corner. Drawing throws Stopped if cancelled.
   Canvas(double width, double height, std::stop_token stop = {})
       : width_(width), height_(height), stop_(std::move(stop)) {}
 
@@ -87,8 +86,8 @@ class Canvas {
   void text(DrawingPoint at, std::string_view what, const Lettering& lettering = {});
   /// A text in one line of at most `room` mm: as `fitted`, then as `shortened`.
   void label(DrawingPoint at, std::string_view what, const Lettering& lettering, double room);
-  /// Another drawing, moved by `by`, its ids with a suffix. What lies off this sheet is left out,
-  /// and so is a text that is not whole within `window` of this sheet.
+  /// Places another drawing, moved by `by`, its ids with a suffix. Omits everything off this sheet,
+  /// and texts that are not wholly within `window` of this sheet.
   void place(const Canvas& other, DrawingPoint by, std::string_view suffix,
              const DrawingBox& window, const std::stop_token& stop);
   /// Everything drawn until `end_group` is cut off at the rectangle, or the polygon.

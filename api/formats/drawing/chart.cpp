@@ -121,7 +121,7 @@ void line(std::string& out, double x1, double y1, double x2, double y2, const ch
 std::vector<std::string> title_lines(const Chart& chart) {
   return wrapped(chart.title, kTitle, kPlot, true);
 }
-/// What a chart is taller by than one with a title of one line.
+/// Returns the additional height compared with a chart whose title has one line.
 double more_title(const Chart& chart) {
   return kTitleLine * static_cast<double>(title_lines(chart).size() - 1);
 }
@@ -170,7 +170,7 @@ class Column {
  public:
   Column(const Series& s, const Frame& f) : s_(s), f_(f) {}
 
-  /// Takes the next point; what is drawn of a column that ends before it goes to `out`.
+  /// Takes the next point; if a pixel column ends before it, the lines of that column go to `out`.
   void take(std::size_t i, std::string& out) {
     const double at = std::floor(f_.px(x_of(s_, i)));
     if (open_ && at != at_) draw(out);
@@ -238,7 +238,7 @@ void draw_limits(std::string& out, const Chart& chart, const Frame& f) {
 /// their line.
 void draw_marks(std::string& out, const Chart& chart, const Frame& f, double bottom, double foot) {
   constexpr double kLine = kLabelLine;
-  double before = 0.0, y = foot;  // where the label before ends
+  double before = 0.0, y = foot;  // end of the previous label
   for (const auto& mark : chart.marks) {
     const auto label = shortened(mark.label, kSmall, kPlot - 6.0);
     const double x = f.px(mark.x), width = text_width(label, kSmall) + 6.0;

@@ -13,10 +13,10 @@ struct Series {
   std::vector<double> x, y;
   std::string color = "#2c6a9b";
   bool dashed = false;
-  double every = 0.0;  // where x is empty: from 0, so far apart
+  double every = 0.0;  // spacing from 0, if x is empty
 };
 
-/// A stretch of x set apart by a tint, with a word at its top.
+/// A tinted interval of x with a word at its top.
 struct Band {
   double from = 0.0, to = 0.0;
   std::string label;
@@ -50,10 +50,10 @@ struct Chart {
   bool undistorted = false;  // one scale for both axes: a drawing
 };
 
-/// The charts one below the other as image/svg+xml, over them the verdict, below them the job.
-/// Coordinates are printed to 0.01 px. Of the points of a curve that follow one another in one
-/// column of pixels the first, the last, the lowest and the highest are printed: what is drawn does
-/// not change by them, and a chart is no longer than its pixels ask for.
+/// Returns the charts one below the other as image/svg+xml, above them the verdict, below them the
+/// job. Coordinates are printed to 0.01 px. If several consecutive points of a curve lie in one
+/// column of pixels, only the first, the last, the lowest and the highest are printed: the picture
+/// is the same, and the size of a chart depends only on its pixels.
 [[nodiscard]] std::string print_charts(const std::vector<Chart>& charts, const Caption& caption);
 
 }  // namespace tubecut::api

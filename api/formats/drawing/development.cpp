@@ -31,7 +31,7 @@ CylinderCurve profile_curve(const joint::Profile& p) {
   return round_the_tube(p.radius, p.phi, p.z);
 }
 
-/// Of both walls' edges what reaches further into the scrap.
+/// Returns, of the edges on both walls, the points further in the scrap.
 std::vector<double> scrap_side(const bevel::Table& t, bool finish) {
   std::vector<double> out;
   for (std::size_t i = 0; i < t.phi.size(); ++i)

@@ -21,7 +21,7 @@ struct CylinderCurve {
   [[nodiscard]] double developed_length(bool closing) const;
 };
 
-/// A chord and the branch that its hole is for, by their names where they have some.
+/// A chord and the branch of its hole, by their names if they have some.
 struct NamedHole : bevel::HoleSpec {
   std::string chord_name, branch_name;
 };
@@ -34,8 +34,8 @@ struct CutOutline {
   std::string label = {};             // of a hole: "H1 for B2"
 };
 
-/// A stretch of an end's outer edge that one partner cuts: where it is, and how far down the waste
-/// reaches there at least.
+/// A segment of an end's outer edge that one partner cuts: its position, and the minimum depth of
+/// the waste there.
 struct PartnerSpan {
   double phi_from = 0.0, phi_to = 0.0, z = 0.0;
   std::size_t partner = 0;
@@ -61,7 +61,7 @@ struct Development {
 [[nodiscard]] Development developed(const joint::IntersectionSpec& spec,
                                     const joint::Intersection& cut);
 [[nodiscard]] Development developed(const NamedHole& spec, const bevel::HoleCut& cut);
-/// "hole for B2", where the branch has a name.
+/// Returns "hole for B2", if the branch has a name.
 [[nodiscard]] std::string for_branch(const std::string& hole, const std::string& branch);
 /// One hole of a chord, by a name.
 [[nodiscard]] CutOutline outline(const joint::Target& chord, const bevel::Hole& hole,
@@ -69,8 +69,8 @@ struct Development {
 /// A part as it is cut: start, finish, then the holes in their order, in the part's frame.
 [[nodiscard]] Development developed(const part::PartSpec& spec, const part::Part& part);
 
-/// Where a hole's label stands on the outside, its middle at phi: in the hole, below its upper edge
-/// and off a mark at its middle; over one that is too small. `room`: mm, for its width.
+/// Position of a hole's label on the outside, its middle at phi: in the hole, below its upper edge
+/// and clear of a mark at its middle; above the hole if it is too small. `room`: mm, for its width.
 struct LabelPlace {
   double phi = 0.0, z = 0.0, room = 0.0;
 };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSections = 8, kColumns = 4, kRows = 3;  // the lowest row holds the table
 constexpr int kChordPoints = 60;
-constexpr double kTable = 52.0;  // mm of paper, below a section alone
+constexpr double kTable = 52.0;  // mm of paper, below a single section
 constexpr Stroke kBranch{.color = "#38424d", .width = 0.3, .fill = "#dfe4e9"};
 constexpr Stroke kChordStyle{.color = "#38424d", .width = 0.3, .fill = "#c9d2da"};
 constexpr Stroke kFiller{.color = "#c2571a", .width = 0.35, .fill = "#f3d9c5"};
@@ -27,7 +27,7 @@ struct Outlines {
 };
 
 DrawingPoint point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
-/// Where a point of a curve lies in its section.
+/// Returns the position of a point of a curve in its section.
 DrawingPoint in_section(const Eigen::Vector3d& p) { return {std::hypot(p.x(), p.y()), p.z()}; }
 
 Outlines outlines(const groove::Joint& joint, const GrooveSection& s) {
@@ -50,7 +50,7 @@ Outlines outlines(const groove::Joint& joint, const GrooveSection& s) {
     if (x > p1.x && x < p2.x) between.push_back({x, *y});
   }
   for (const auto& p : out.chord) out.low.y = std::min(out.low.y, p.y);
-  // Nearer to the axis the chord is open: it ends at the root face, whose height is its own.
+  // Nearer to the axis the chord is open, so it ends at the root face, whose height differs.
   out.chord.push_back({out.chord.back().x, out.low.y});
   out.chord.push_back({p1.x, out.low.y});
   out.filler = {p1, p3, p2};
@@ -131,7 +131,7 @@ void name_points(Canvas& canvas, const GrooveSection& s, const Placing& at) {
 
 Canvas one_section(const groove::GrooveSpec& spec, const groove::Joint& joint,
                    const GrooveSection& s, const Caption& caption) {
-  constexpr double kNames = 90.0, kAbove = 30.0;  // mm of paper, beside and above the section
+  constexpr double kNames = 90.0, kAbove = 30.0;  // mm of paper, next to and above the section
   const std::string title = "Section of the groove at " + name_of(s);
   const auto o = outlines(joint, s);
   auto facts = facts_of(spec);

@@ -6,7 +6,7 @@
 namespace tubecut::api {
 namespace {
 
-/// Labels that touch each other: `middle` is where their middle wants to be.
+/// Labels that touch each other; `middle` is the desired position of their middle.
 struct Group {
   std::size_t count;
   double middle;

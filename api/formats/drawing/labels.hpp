@@ -4,9 +4,9 @@
 
 namespace tubecut::api {
 
-/// Places for labels in a row that want to stand at `wanted`, in their order, `apart` from each
-/// other and within [low, high]; nearer to each other where there is no room. The least moved
-/// first: a group of labels that would lie on each other is spread about its middle.
+/// Returns positions for labels in a row with the desired positions `wanted`, in their order, with
+/// at least `apart` between them and within [low, high]; closer if there is no room. Moves them as
+/// little as possible: a group of labels that would overlap is spread about its middle.
 [[nodiscard]] std::vector<double> spread(const std::vector<double>& wanted, double apart,
                                          double low, double high);
 

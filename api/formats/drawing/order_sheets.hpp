@@ -8,22 +8,21 @@
 
 namespace tubecut::api {
 
-/// Sheets of A4 upright that blocks are set on from above downwards: what does not fit goes to the
-/// next one. Each has the same head: what it is, of which part, its verdict; and a foot: the job,
-/// sheet of sheets.
+/// Sheets of A4 upright that take blocks from top to bottom; a block that does not fit goes to the
+/// next sheet. Each has the same head: title, part, verdict; and a foot: the job, sheet of sheets.
 class OrderSheets {
  public:
   static constexpr double kWidth = 210.0, kHeight = 297.0, kBorder = 10.0;
   static constexpr double kPad = 3.0, kLeft = kBorder + kPad, kRight = kWidth - kBorder - kPad,
-                          kWide = kRight - kLeft;  // of what stands on it
+                          kWide = kRight - kLeft;  // of its content
 
   OrderSheets(std::string title, std::string part, const Caption& caption);
 
   /// Room for a block as wide as the sheet: the y of its upper edge.
   double take(double height);
-  /// Begins another sheet where less than that is left of this one.
+  /// Begins another sheet if less than `height` remains on this one.
   void keep_together(double height);
-  /// What is left of this sheet.
+  /// Returns the remaining height of this sheet.
   [[nodiscard]] double left() const { return y_ - kLow; }
   [[nodiscard]] Canvas& canvas() { return sheets_.back(); }
   /// With the foot of each.

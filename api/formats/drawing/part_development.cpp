@@ -11,9 +11,9 @@ namespace {
 
 // mm on paper
 constexpr double kMostGirth = 76.0;
-constexpr double kLeft = 13.0, kRight = 32.0;  // beside a strip: phases; lengths and girth
+constexpr double kLeft = 13.0, kRight = 32.0;  // next to a strip: phases; lengths and girth
 constexpr double kAbove = 7.0, kBelow = 22.0;
-constexpr double kRoom = 4.0, kBreak = 6.0;  // of plain tube beside what is drawn; of a break
+constexpr double kRoom = 4.0, kBreak = 6.0;  // of plain tube around the drawn range; of a break
 
 constexpr Stroke kCut{.color = "#1d242b", .width = 0.35};
 constexpr Stroke kInner{.color = "#566370", .width = 0.2, .dashes = "1.6 1"};
@@ -34,7 +34,7 @@ std::vector<Place> places_of(const part::Part& part) {
   return out;
 }
 
-/// Those that lie on each other, with `room` beside them, as one.
+/// Merges ranges that overlap when `room` is added on both sides.
 std::vector<Place> joined(const std::vector<Place>& places, double room) {
   std::vector<Place> out;
   for (auto place : places) {
@@ -182,7 +182,7 @@ class Stretch {
     if (!t.cutter.empty()) end_run(t.cutter.back());
   }
 
-  /// Drawn again a turn on where it reaches beyond the lower edge.
+  /// Draws the hole again one turn further if it reaches beyond the lower edge.
   void hole(std::size_t i) {
     const auto& hole = part_.holes[i].hole;
     const auto place = place_of(hole);
@@ -214,7 +214,7 @@ class Stretch {
       canvas_.line({where.x, where.y - 1.0}, {where.x, where.y + 1.0}, kMark);
     }
     double below = where.y - 1.0;
-    for (const auto& placed : part_.holes) {  // a branch's name stands below its hole
+    for (const auto& placed : part_.holes) {  // a branch's name is below its hole
       const auto place = place_of(placed.hole);
       const double phi_in = turned_from(place.phi_from, phi);
       if (phi_in <= place.phi_to && mark.z_from >= place.z_from && mark.z_to <= place.z_to)
@@ -235,7 +235,7 @@ class Stretch {
   DrawingPoint top_;
 };
 
-/// What a strip says beside its stretches.
+/// Annotations next to the segments of a strip.
 class Beside {
  public:
   Beside(Canvas& canvas, const DevelopmentPlan& plan, std::size_t index, const part::Part& part,
@@ -299,7 +299,7 @@ class Beside {
     }
   }
 
-  /// How far from z = 0 everything begins and ends, each at a line of its own.
+  /// Draws the distances of all beginnings and ends from z = 0, each on its own line.
   void distances() {
     std::vector<double> all{0.0};
     for (const auto* end : {&part_.start, &part_.finish})

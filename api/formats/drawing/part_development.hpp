@@ -8,9 +8,9 @@
 
 namespace tubecut::api {
 
-/// How a part's outside is laid flat on paper: true to shape, at one usual scale, as it is seen
-/// from outside (z to the right, hence phi downwards, for x, y, z is right-handed). It is cut open
-/// where no hole is. Plain stretches are left out, with a break; what is too long goes on in the
+/// Layout of a part's outside laid flat on paper: true to shape, at one usual scale, as seen from
+/// outside (z to the right, hence phi downwards, because x, y, z is right-handed). It is cut open
+/// away from holes. Plain lengths are omitted, with a break; if it is too long, it continues on the
 /// next strip.
 struct DevelopmentPlan {
   struct Stretch {
@@ -24,7 +24,7 @@ struct DevelopmentPlan {
   double girth = 0.0;   // mm on the tube
   std::vector<Strip> strips;
 
-  /// What a strip takes of the page, mm.
+  /// Returns the height of a strip on the page, mm.
   [[nodiscard]] double height() const;
 };
 

@@ -28,7 +28,7 @@ class RoundEdge {
 /// The phase within a turn from `from` on.
 [[nodiscard]] double turned_from(double from, double phi);
 
-/// Where along the tube something is, and where round it; of a hole phi is continuous.
+/// Range along the tube and round it; for a hole, phi is continuous.
 struct Place {
   double z_from = 0.0, z_to = 0.0, phi_from = 0.0, phi_to = 0.0;
 };
@@ -36,7 +36,7 @@ struct Place {
 /// Of an end, both walls.
 [[nodiscard]] Place place_of(const bevel::Table& end);
 
-/// What partners are drawn in, one after the other.
+/// Returns the colour of partner `i`.
 [[nodiscard]] std::string_view partner_color(std::size_t i);
 
 /// A hole's name on a drawing: "H1".

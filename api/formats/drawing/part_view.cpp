@@ -12,9 +12,9 @@ namespace tubecut::api {
 namespace {
 
 constexpr int kPhases = 180;
-constexpr double kAlong = 30.0 * kRadPerDeg;  // the tube runs to the right, and so much back
+constexpr double kAlong = 30.0 * kRadPerDeg;  // the tube runs to the right, and back by this angle
 constexpr double kFront =
-    -40.0 * kRadPerDeg;  // what is to be seen is turned there, up of the front
+    -40.0 * kRadPerDeg;  // rotation of the most interesting side, upwards from the front
 constexpr Stroke kEdge{.color = "#1c2733", .width = 0.3};
 constexpr Stroke kDatum{.color = "#c0392b", .width = 0.35};
 constexpr Stroke kHidden{.color = "#c0392b", .width = 0.2, .dashes = "1.2 1.2"};
@@ -136,7 +136,8 @@ class View {
   [[nodiscard]] double faces(double phi) const {
     return elementary::sincos(phi + roll_).cos * elementary::sincos(kAlong).cos;
   }
-  /// What is turned to the front: the widest hole, else where the start is cut deepest.
+  /// Returns the phase to turn to the front: the widest hole, else the deepest point of the start's
+  /// cut.
   [[nodiscard]] double focus() const {
     const bevel::Hole* widest = nullptr;
     for (const auto& placed : part_.holes)
@@ -186,7 +187,7 @@ class View {
       if (const double light = -faces(phase(i) + 0.5 * phase(1)); light > 0.0)
         along(start_inner_, finish_inner_, inner_, i, bore_shades().at(0.7 * light));
   }
-  /// Furthest first, so that what is nearer hides what is behind it.
+  /// Draws the furthest first, so that nearer faces hide those behind them.
   void face(const RoundEdge& outer, const RoundEdge& inner, bool edged) {
     std::vector<std::pair<double, int>> order;
     for (int i = 0; i < kPhases; ++i)

@@ -21,7 +21,7 @@ constexpr std::pair<char32_t, unsigned char> kWinAnsi[] = {
     {0x20ac, 0x80}, {0x2026, 0x85}, {0x2018, 0x91}, {0x2019, 0x92}, {0x201c, 0x93},
     {0x201d, 0x94}, {0x2022, 0x95}, {0x2013, 0x96}, {0x2014, 0x97}, {0x2122, 0x99}};
 
-/// In WinAnsiEncoding; what that has not in ASCII.
+/// Returns the text in WinAnsiEncoding; other letters spelled in ASCII.
 std::string in_win_ansi(std::string_view text) {
   std::string out;
   while (!text.empty()) {
@@ -42,7 +42,7 @@ std::string in_win_ansi(std::string_view text) {
   return out;
 }
 
-/// Within the parentheses of a string: nothing in it ends it.
+/// Returns the text escaped for the parentheses of a string.
 std::string literal(std::string_view text) {
   static constexpr char kOctal[] = "01234567";
   std::string out = "(";
@@ -56,7 +56,7 @@ std::string literal(std::string_view text) {
   return out + ")";
 }
 
-/// "#1f5fbf" as three shares of 1.
+/// Returns "#1f5fbf" as three fractions.
 std::string color(std::string_view name) {
   std::string out;
   for (std::size_t i = 1; i + 1 < name.size(); i += 2) {
@@ -67,7 +67,7 @@ std::string color(std::string_view name) {
   return out;
 }
 
-/// What draws one sheet, in mm.
+/// The drawing commands of one sheet, in mm.
 class Content {
  public:
   Content(const Canvas& canvas, const std::stop_token& stop) {
@@ -140,7 +140,7 @@ class Content {
   }
 };
 
-/// Numbered objects, and the table of where they begin.
+/// Numbered objects, and the table of their offsets.
 class File {
  public:
   /// Its number.

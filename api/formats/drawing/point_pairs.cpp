@@ -20,7 +20,7 @@
 namespace tubecut::api {
 namespace {
 
-/// To 1e-6: what is less is no place.
+/// Rounds to 1e-6, because smaller differences have no meaning.
 double brief_number(double value) {
   constexpr double kParts = 1e6;
   const double out = std::round(value * kParts) / kParts;
@@ -108,7 +108,7 @@ void write_frame(Writer& w, const TorchJob& job) {
   });
 }
 
-/// The table's values, the request's, or null where the control has them.
+/// Writes the table's values, the request's, or null if the control has them.
 void write_process(Writer& w, const FormatOptions& o) {
   const auto nullable = [&](std::string_view name, const std::optional<double>& value) {
     w.field(name, value ? Json{brief_number(*value)} : Json{});

@@ -7,12 +7,12 @@
 
 namespace tubecut::api {
 
-/// The cuts as JSON: of each, from its pierce to the end of its lead-out, where the torch's line
-/// meets the outer and the inner wall. Between two pairs both go straight in (phi, z).
-/// docs/formats.md, "Point pairs".
+/// The cuts as JSON: for each, from its pierce to the end of its lead-out, the points at which the
+/// torch's line meets the outer and the inner wall. Between two pairs both points move linearly in
+/// (phi, z). docs/formats.md, "Point pairs".
 ///
 /// Frame     the result's: z along the tube, phi from x towards y.
-/// Errors    throws UnfitOption (post) where the line grazes the inner wall.
+/// Errors    throws UnfitOption (post) if the line grazes the inner wall.
 /// Accuracy  1e-6 mm, 1e-6 deg.
 [[nodiscard]] std::string print_point_pairs(const TorchJob& job,
                                             const std::vector<TorchCutPlaces>& cuts,

@@ -19,8 +19,8 @@ struct WallSection {
 struct SectionSet {
   std::string title;
   double wall = 0.0;
-  std::string along;        // what y is
-  std::string angle = "B";  // what the cut's angle is, between its line and square to the wall
+  std::string along;        // meaning of y
+  std::string angle = "B";  // name of the cut's angle, between its line and square to the wall
   SheetFacts facts;
   std::vector<WallSection> sections;
 };

@@ -30,7 +30,7 @@ Sheet::Sheet(const std::string& title, const SheetFacts& facts, const Caption& c
 
 void Sheet::draw_block(const std::string& title, const SheetFacts& facts, const SheetFacts& job) {
   constexpr double kText = 2.6, kAll = kWidth - 2.0 * kBorder, kHalf = 0.5 * kAll;
-  std::vector<std::string> wide;  // lines that no half has room for
+  std::vector<std::string> wide;  // lines that are too long for a half
   const auto within = [&](const SheetFacts& rows) {
     std::vector<std::string> out;
     for (const auto& [name, value] : rows) {

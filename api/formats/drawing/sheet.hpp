@@ -9,11 +9,11 @@
 
 namespace tubecut::api {
 
-/// What stands in the title block: name and value.
+/// Names and values of the title block.
 using SheetFacts = std::vector<std::pair<std::string, std::string>>;
 
 /// A page of A4 upright with a frame and a title block: title, facts, the caller's reference,
-/// engine and hashes; at its top the verdict. What goes between is the caller's.
+/// engine and hashes; at its top the verdict. The caller draws the content between them.
 class Sheet {
  public:
   static constexpr double kWidth = 210.0, kHeight = 297.0, kBorder = 10.0;

@@ -21,7 +21,7 @@ constexpr Stroke kJunction{.color = "#b9770e", .width = 0.15, .dashes = "1 2"};
 constexpr Stroke kMark{.color = "#2b6ca3", .width = 0.3};
 constexpr Stroke kGlue{.color = "#7a8794", .width = 0.2, .dashes = "1 1", .fill = "#f1f3f5"};
 
-/// Degrees between two marks of the phi scale, at least 9 mm apart.
+/// Returns the degrees between two marks of the phi scale, for a distance of at least 9 mm.
 double scale_step(double radius) {
   for (const double step : {1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0})
     if (radius * step * kRadPerDeg >= 9.0) return step;
@@ -66,7 +66,7 @@ class Drawing {
     upright(0.0, kSeam, "seam-0");
     upright(kTwoPi, kSeam, "seam-360");
     for (int i = 1; i < 4; ++i) upright(0.25 * i * kTwoPi, kQuarter);
-    constexpr double kAgain = 120.0;  // mm: a page of a long part tells its quarters
+    constexpr double kAgain = 120.0;  // mm: a page of a long part labels its quarters
     for (double z = field_.z_from + 0.5 * kAgain; d_.whole && z < field_.z_datum; z += kAgain)
       for (int i = 0; i < 4; ++i) {
         const auto place = at(x_of(0.25 * i * kTwoPi), z);
@@ -100,8 +100,8 @@ class Drawing {
     }
     way_of_phi();
   }
-  /// An arrow over the scale, its name behind its tail, before its head where that is off the
-  /// sheet.
+  /// Draws an arrow over the scale, its name behind its tail, or before its head if the tail is off
+  /// the sheet.
   void way_of_phi() {
     constexpr std::string_view kName = "phi, °";
     constexpr double kHeight = 2.2;

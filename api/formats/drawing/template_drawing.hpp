@@ -15,7 +15,7 @@ struct TemplateField {
 
   [[nodiscard]] double width() const { return x_to - x_from + tab; }
   [[nodiscard]] double height() const { return z_datum - z_from; }
-  /// Where a point of the surface lies on the drawing.
+  /// Returns the position of a point of the surface on the drawing.
   [[nodiscard]] DrawingPoint at(double x, double z) const {
     return {mirrored ? tab + x_to - x : x - x_from, z - z_from};
   }
@@ -25,22 +25,23 @@ struct TemplateField {
     return {{left, 0.0}, {left + x_to - x_from, height()}};
   }
 };
-/// With room beside the cuts for the words KEEP and SCRAP and the partners' names.
+/// Returns the field, with room next to the cuts for the words KEEP and SCRAP and the partners'
+/// names.
 [[nodiscard]] TemplateField template_field(const Development& development, const Caption& caption);
 
 /// Room above the datum for the phi scale, mm.
 inline constexpr double kScaleRoom = 9.0;
 
-/// The lines of a template at full size, and nothing beside it: its origin is the field's lower
+/// The lines of a template at full size, without anything else: its origin is the field's lower
 /// left corner, its size the field's with the room for the scale. `cuts`: the curves that are cut.
-/// What is said about them is of template_labels.hpp.
+/// template_labels.hpp labels them.
 struct TemplateDrawing {
   Canvas all, cuts;
 };
 [[nodiscard]] TemplateDrawing draw_template(const Development& development,
                                             const TemplateField& field, const Caption& caption);
 
-/// A closed curve of a hole as it lies on the drawing, once more a turn on where it reaches beyond
+/// Returns a closed curve of a hole on the drawing, repeated one turn further if it reaches beyond
 /// the seam.
 [[nodiscard]] std::vector<std::vector<DrawingPoint>> copies_on(const TemplateField& field,
                                                                const CylinderCurve& curve,

@@ -92,11 +92,11 @@ Skyline::Range Skyline::range(double from, double to) const {
                             high_.begin() + static_cast<std::ptrdiff_t>(last) + 1)};
 }
 
-/// What is written on one window of the drawing, in the canvas' coordinates.
+/// The texts of one window of the drawing, in the canvas' coordinates.
 struct TemplateLabels::Writing {
   Canvas& canvas;
   DrawingPoint by;  // of the drawing's origin
-  DrawingBox room;  // where the surface is shown
+  DrawingBox room;  // shown part of the surface
   std::vector<DrawingBox> taken = {};
   double name_room = 45.0;  // mm, of a partner's name that its stretch is too short for
 
@@ -199,7 +199,8 @@ void TemplateLabels::draw(Canvas& canvas, const DrawingBox& window, DrawingPoint
         {.height = 2.4, .anchor = Anchor::middle, .turn = 90.0, .color = kGrey});
 }
 
-/// Its name in it, or over it where it is too small; SCRAP in it, or below it with a line to it.
+/// Writes its name in it, or above it if it is too small; SCRAP in it, or below it with a line to
+/// it.
 void TemplateLabels::write_hole(Writing& w, const Hole& hole) const {
   const Lettering plain{.height = 2.8, .anchor = Anchor::middle, .bold = true, .color = kName};
   const auto l = fitted(hole.label, plain, hole.place.room);
@@ -277,7 +278,7 @@ std::optional<TemplateLabels::Stretch> TemplateLabels::stretch_of(const Writing&
   return Stretch{a, b, names[span.partner]};
 }
 
-/// Names beside their stretches are as long as they all fit next to each other.
+/// Shortens the names next to their segments until all fit next to each other.
 void TemplateLabels::share_name_room(Writing& w) const {
   double wanted = 0.0, count = 0.0;
   for (const auto& span : d_.spans)
@@ -287,13 +288,13 @@ void TemplateLabels::share_name_room(Writing& w) const {
       wanted += std::min(width, w.name_room);
       count += 1.0;
     }
-  constexpr double kLeast = 9.0;  // four letters and what says that there are more
+  constexpr double kLeast = 9.0;  // four letters and the ellipsis
   const double room = w.room.high.x - w.room.low.x - 2.0;
   if (wanted > room) w.name_room = std::max(kLeast, room / count);
 }
 
-/// On the side of the scrap: along its stretch of the edge, or, where that is too short, with a
-/// line to it.
+/// Writes the name on the side of the scrap: along its segment of the edge, or, if that is too
+/// short, with a line to it.
 void TemplateLabels::write_partner(Writing& w, const PartnerSpan& span) const {
   const auto stretch = stretch_of(w, span);
   if (!stretch) return;
@@ -320,7 +321,7 @@ void TemplateLabels::write_partner(Writing& w, const PartnerSpan& span) const {
         if (write_beside(w, line, span.finish, a + share * (b - a), side, k, text, l)) return;
 }
 
-/// In the row `k` off the edge, its middle over the line's foot or beside it.
+/// Writes in the row `k` off the edge, its middle over the line's foot or next to it.
 bool TemplateLabels::write_beside(Writing& w, const Skyline& line, bool finish, double foot,
                                   double side, int k, const std::string& text, const Lettering& l) {
   constexpr double kRow = 3.2;
@@ -339,7 +340,8 @@ bool TemplateLabels::write_beside(Writing& w, const Skyline& line, bool finish, 
   return true;
 }
 
-/// KEEP and SCRAP next to the edges that part them; in the kept side also what is up, and the part.
+/// Writes KEEP and SCRAP next to the edges that separate them; in the kept side also the upward
+/// direction, and the part.
 void TemplateLabels::write_sides(Writing& w) const {
   const std::vector<double> loud{6.0, 5.0, 4.0, 3.2, 2.6, kLeastText};
   const Lettering side{.bold = true, .color = kSide};

@@ -15,7 +15,7 @@ class Skyline {
   void add(const std::vector<DrawingPoint>& points, bool closed);
 
   struct Range {
-    double low, high;  // infinite, low above high, if there is nothing
+    double low, high;  // infinite, low above high, if empty
   };
   [[nodiscard]] Range range(double from, double to) const;
 
@@ -23,15 +23,15 @@ class Skyline {
   std::vector<double> low_, high_;
 };
 
-/// The words of a template: KEEP and SCRAP on their sides, which side is up, the part, partners at
-/// their stretches of an edge, holes and marks by name. Their places depend on what of the drawing
-/// is shown, for each is whole, off every other text and off the edges.
+/// The words of a template: KEEP and SCRAP on their sides, the upward direction, the part, partners
+/// at their segments of an edge, holes and marks by name. Their positions depend on the shown
+/// window, because each is whole, clear of every other text and of the edges.
 class TemplateLabels {
  public:
   TemplateLabels(const Development& development, const TemplateField& field, const Caption& caption,
                  std::string part);
 
-  /// Those of the part `window` of the drawing, whose origin lies at `by` of the canvas.
+  /// Draws those of the part `window` of the drawing, whose origin lies at `by` of the canvas.
   void draw(Canvas& canvas, const DrawingBox& window, DrawingPoint by) const;
 
  private:
@@ -41,8 +41,7 @@ class TemplateLabels {
     std::vector<std::vector<DrawingPoint>> outlines;
   };
   struct Writing;
-  /// What a window shows of a partner's stretch of an edge, x of the canvas, and the partner's
-  /// name.
+  /// The visible range of a partner's segment of an edge, x of the canvas, and the partner's name.
   struct Stretch {
     double from, to;
     const std::string& name;

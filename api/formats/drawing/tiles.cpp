@@ -15,7 +15,8 @@ constexpr double kOverlap = 10.0;  // of two pages
 constexpr double kRuler = 100.0;
 constexpr double kRulerRoom = 9.0;  // left of the window
 constexpr double kHead = 9.0;
-constexpr double kPad = 4.0;  // of the first window beside the drawing: no label lies on its frame
+constexpr double kPad = 4.0;  // around the drawing in the first window, so that no label lies on
+                              // its frame
 constexpr double kMapRoom = 36.0, kMapTall = 18.0;
 constexpr double kWord = 2.4, kLine = 3.3;           // of the words below the window
 constexpr double kPlaceRow = 7.0, kRulerRow = 10.0;  // above and below those
@@ -144,14 +145,14 @@ class Tiles {
       if (tiles_[k].column == column && tiles_[k].row == row) return static_cast<int>(k) + 1;
     return 0;
   }
-  /// Of its window, what no other page is glued on.
+  /// Returns the part of its window on which no other page is glued.
   [[nodiscard]] DrawingBox uncovered(const Tile& tile) const {
     auto out = tile.window;
     if (number_at(tile.column + 1, tile.row) > 0) out.high.x -= kOverlap;
     if (number_at(tile.column, tile.row + 1) > 0) out.low.y += kOverlap;
     return out;
   }
-  /// Where the pages to the right and below are glued on.
+  /// Marks the edges on which the pages to the right and below are glued.
   void glue(Canvas& sheet, const Tile& tile, DrawingPoint low, DrawingPoint high) {
     constexpr Lettering kGlueWord{.height = 2.2, .anchor = Anchor::middle, .color = "#56626e"};
     if (const int next = number_at(tile.column + 1, tile.row); next > 0) {

@@ -10,7 +10,7 @@
 
 namespace tubecut::api {
 
-/// What every tile says of the template it is of.
+/// Texts that every tile has about its template.
 struct TileWords {
   std::string title;  // and the part
   std::vector<std::string> lines;
@@ -18,11 +18,11 @@ struct TileWords {
   bool mirrored = false;    // x counts from the right
 };
 
-/// A drawing at full size on pages of the paper, upright or across, whichever needs fewer: each
-/// shows a window of it, with what the next page overlaps marked to glue on, crop marks at its
-/// corners, a map of the pages, what the window shows, and a 100 mm ruler each way. Every page has
-/// the labels of its own window, whole. Pages that nothing of `cuts` is on are left out. The window
-/// of page k has the id `window-k`.
+/// Returns a drawing at full size on pages of the paper, upright or across, for the smaller number
+/// of pages: each shows a window of it, with the overlap of the next page marked to glue on, crop
+/// marks at its corners, a map of the pages, the shown range, and a 100 mm ruler in each direction.
+/// Every page has the labels of its own window, whole. Pages without any of `cuts` are omitted. The
+/// window of page k has the id `window-k`.
 [[nodiscard]] std::vector<Canvas> tiles(const TemplateDrawing& drawing,
                                         const TemplateLabels& labels, Paper paper,
                                         const TileWords& words, const std::stop_token& stop);

@@ -136,7 +136,7 @@ void draw_verdict(OrderSheets& sheets, const part::PartSpec& spec, const part::P
   for (const auto& [line, l] : lines) sheets.canvas().text({kLeft, y -= kRow}, line, l);
 }
 
-/// As tall as what else goes on the sheet leaves it.
+/// Draws the view in the height that remains on the sheet.
 void draw_view(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
                double others) {
   constexpr double kLeast = 50.0, kMost = 92.0;
@@ -148,7 +148,7 @@ void draw_view(OrderSheets& sheets, const part::PartSpec& spec, const part::Part
               "phi counts from the datum line, clockwise as seen from the start", kGrey);
 }
 
-/// Of sheet 1 below the view, where there is one strip.
+/// Returns the height below the view on sheet 1, if there is one strip.
 double height_below(const DevelopmentPlan& plan, const part::Part& part) {
   const auto count = [](std::size_t n) { return static_cast<double>(n); };
   const std::size_t partners = part.start.spec.partners.size() + part.finish.spec.partners.size();
@@ -157,7 +157,7 @@ double height_below(const DevelopmentPlan& plan, const part::Part& part) {
          4.4 * std::ceil(count(part.sequence.size()) / 2.0);
 }
 
-/// What the colours of the two cuts mean, two lines of a sheet.
+/// Draws the legend of the two cuts' colours, two lines of a sheet.
 void draw_partners(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
                    const Caption& caption) {
   constexpr std::size_t kColumns = 4;
@@ -184,7 +184,8 @@ void draw_partners(OrderSheets& sheets, const part::PartSpec& spec, const part::
   }
 }
 
-/// What the request accepts, and how far its points are from the exact curve.
+/// Returns the limits that the request accepts, and the distance of its points from the exact
+/// curve.
 std::string accepted(const Caption& caption) {
   std::string out;
   const auto* request = caption.request;

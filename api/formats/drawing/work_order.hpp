@@ -8,10 +8,10 @@
 
 namespace tubecut::api {
 
-/// The part on sheets of A4 for those who cut and check it: what it is and whether to cut it; a
-/// view in space; its outside developed, true to shape, with both ends, holes and marks; where each
-/// hole is and how large, with room for what was measured; the check dimensions, and the mistakes
-/// that change them; the steps in their order; what is accepted; who made and checked it.
+/// Returns the part on sheets of A4 for the people who cut and check it: name and verdict; a view
+/// in space; its outside developed, true to shape, with both ends, holes and marks; position and
+/// size of each hole, with room for measurements; the check dimensions, and the mistakes that
+/// change them; the steps in their order; the accepted limits; who made and checked it.
 [[nodiscard]] std::vector<Canvas> work_order(const part::PartSpec& spec, const part::Part& part,
                                              const Caption& caption);
 

@@ -50,7 +50,7 @@ std::string part_of(const Development& d, const Caption& c) {
   return text != nullptr ? *text : std::string{};
 }
 
-/// "N-12: hole for B2": of what the sheet is.
+/// Returns "N-12: hole for B2": the subject of the sheet.
 std::string subject(const Development& d, const Caption& c) {
   auto out = part_of(d, c);
   if (!d.around())

@@ -18,7 +18,7 @@ namespace tubecut::api {
 [[nodiscard]] std::vector<Canvas> wrap_template(const Development& development,
                                                 const Caption& caption);
 
-/// Throws UnfitOption where the view is no template and `paper` is a page's.
+/// Throws UnfitOption if the view is not a template and `paper` is a page's.
 void refuse_paper(const Caption& caption);
 
 }  // namespace tubecut::api

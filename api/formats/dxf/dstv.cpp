@@ -24,7 +24,8 @@ std::string field(double value, int digits = 3) {
   return std::string(text.size() < 12 ? 12 - text.size() : 1, ' ') + text;
 }
 
-/// The way up in the file, where x goes to the right: as seen from outside, phi grows downwards.
+/// Returns the height in the file, in which x goes to the right: seen from outside, phi grows
+/// downwards.
 double up(double radius, double phi) { return radius * (kTwoPi - phi); }
 
 std::string comment(const std::string& text) { return "** " + text + "\r\n"; }
@@ -39,7 +40,7 @@ std::string reference(const Caption& caption, std::string_view name) {
 struct Lengths {
   double low = 0.0;  // z of x = 0
   double over_long = 0.0, over_short = 0.0, work_point = 0.0;
-  double saw = 0.0;      // from where the torch line begins
+  double saw = 0.0;      // from the start of the torch line
   bool assumed = false;  // nobody gave the far end
 };
 
@@ -95,7 +96,7 @@ std::string comments(const Lengths& l, bool constant, const Caption& c) {
   return out;
 }
 
-/// `name`: of the piece where the reference has none.
+/// `name`: name of the piece if the reference has no name.
 std::string header(const joint::Target& target, double density, const Lengths& l, const Caption& c,
                    std::string_view name = {}) {
   const double ro = target.outer_radius, ri = target.inner_radius();
@@ -115,7 +116,7 @@ std::string header(const joint::Target& target, double density, const Lengths& l
   return out + line("-") + line("-") + line("-") + line("-");
 }
 
-/// A point of a contour; the reference edge "u" only where it is the first of the block.
+/// Returns a point of a contour; the reference edge "u" only for the first of the block.
 std::string point(double x, double y, double bevel, bool first) {
   return std::string("  ") + (first ? "v" : " ") + field(x) + (first ? "u" : " ") + field(y) +
          field(0.0) + field(bevel) + field(0.0) + field(0.0) + field(0.0) + "\r\n";
@@ -167,7 +168,7 @@ std::string sidecar(const joint::Target& target, const bevel::Hole& h,
   return out;
 }
 
-/// The bevel in degrees where it is one for the whole cut.
+/// Returns the bevel in degrees if the whole cut has the same.
 std::optional<double> one_bevel(const std::vector<double>& b) {
   const auto [least, most] = std::ranges::minmax(b);
   if (most - least > kOneBevel) return std::nullopt;

@@ -61,7 +61,7 @@ std::string extent_in_words(const CutOutline& hole) {
          " to " + degrees(phi.max);
 }
 
-/// Each hole's label, small where the hole is.
+/// Draws each hole's label, small, at the hole.
 void name_holes(DxfWriter& w, const Development& d) {
   constexpr double kHeight = 3.0, kLeast = 0.8;
   for (const auto& cut : d.cuts) {
@@ -156,8 +156,8 @@ void across(DxfWriter& w, const DxfWriter::Layer& layer, const Development& d, b
     w.polyline(layer, flat(circle), false);
 }
 
-/// Its phase, turns away where it stands in the contour of a hole that is drawn there: a hole
-/// across the seam is one contour.
+/// Returns the phase of a mark, plus full turns if it lies in the contour of a hole that is drawn
+/// there: a hole across the seam is one contour.
 double shown_phi(const Development& d, const part::Mark& mark) {
   for (const auto& cut : d.cuts) {
     if (cut.around || cut.outer.empty()) continue;

@@ -20,10 +20,10 @@ namespace tubecut::api {
 /// Own writer: dxflib is GPL-2.0 and writes to named files only.
 [[nodiscard]] std::string print_dxf(const Development& development, const Caption& caption);
 
-/// A whole part, both ends, holes and marks, in the part's frame: the same layers and views, and
-/// MARK for what is drawn on the outside. As developed the SEAMs run from the start's edge to the
-/// finish's, so that the outline closes; DATUM is z = 0. A hole across the seam is drawn in one
-/// piece, beyond it.
+/// Returns a whole part, both ends, holes and marks, in the part's frame: the same layers and
+/// views, and MARK for the marks on the outside. In the developed view the SEAMs run from the
+/// start's edge to the finish's, so that the outline closes; DATUM is z = 0. A hole across the seam
+/// is drawn in one piece, beyond it.
 [[nodiscard]] std::string print_dxf(const Development& development,
                                     const std::vector<part::Mark>& marks, const Caption& caption);
 

@@ -15,11 +15,11 @@ class DxfWriter {
     std::string_view name;
     int color;  // AutoCAD colour index
   };
-  /// `remarks` stand at the file's head.
+  /// `remarks` go to the file's head.
   DxfWriter(std::vector<Layer> layers, std::vector<std::string> remarks, std::stop_token stop)
       : layers_(std::move(layers)), remarks_(std::move(remarks)), stop_(std::move(stop)) {}
 
-  /// Points (x, y); those equal to their predecessor are left out.
+  /// Points (x, y); omits those equal to their predecessor.
   void polyline(const Layer& layer, const std::vector<Eigen::Vector2d>& points, bool closed);
   void polyline(const Layer& layer, const std::vector<Eigen::Vector3d>& points, bool closed);
   void text(const Layer& layer, const Eigen::Vector2d& at, double height, std::string_view what);

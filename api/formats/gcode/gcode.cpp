@@ -46,7 +46,7 @@ torch::Setup setup_of(const FormatOptions& o) {
   return out;
 }
 
-/// The same places with more between them where a move of all axes would sag.
+/// Adds positions if a move of all axes would sag.
 void refine(const motion::CutWithLead& way, const TorchReach& reach, const std::stop_token& stop,
             Straightness& told, TorchCutPlaces& out) {
   const auto& points = way.points;
@@ -141,7 +141,7 @@ std::string timed(const std::string& words, double length, double distance,
                     {"axes_feeds", axes_feeds(moves, rate)}});
 }
 
-/// Between two cuts; nothing where the control moves the tip.
+/// Returns the move between two cuts; empty if the control moves the tip.
 std::string retract(const TorchJoints& joints, const Post& post) {
   return joints.has_pivot() ? post_line(post.rapid, {{"axes", joints.clear_height()}}) : "";
 }
@@ -193,7 +193,7 @@ TorchJoints::Leaning leaning(const TorchJob& job) {
   return out;
 }
 
-/// The cuts with the passes of their lands, or why there are none.
+/// Returns the cuts with the passes of their lands, or the reason for the refusal.
 std::vector<torch::TorchCut> in_passes(Result<std::vector<torch::TorchCut>> cuts,
                                        const Caption& caption) {
   ask(caption.stop);
@@ -202,7 +202,7 @@ std::vector<torch::TorchCut> in_passes(Result<std::vector<torch::TorchCut>> cuts
   throw UnfitOption{"passes", std::string(info(issue.code).code) + " " + issue.hint};
 }
 
-/// What the head says of tabs, and why a program has none.
+/// Writes the head's lines on tabs, or the reason why a program has no tabs.
 void tell_tabs(TorchJob& job, const FormatOptions& o) {
   if (!o.tabs) return;
   std::size_t held = 0;
@@ -229,7 +229,7 @@ void tell_marks(TorchJob& job, const FormatOptions& o) {
                         (o.torch ? "" : ", the tool stays off"));
 }
 
-/// The strokes of a part's marks before its cuts, and what is left to a person.
+/// Adds the strokes of a part's marks before its cuts, and the marks that remain manual work.
 void add_marks(const part::PartSpec& spec, const part::Part& part, const FormatOptions& o,
                TorchJob& job) {
   for (const auto& step : part.sequence) {
@@ -245,8 +245,8 @@ void add_marks(const part::PartSpec& spec, const part::Part& part, const FormatO
   job.cuts = torch::with_marks(spec, part, std::move(job.cuts));
 }
 
-/// A bevel that stands on a land does not cut it: a program that lights the torch must say that it
-/// is meant so. Its head does.
+/// A bevel on a land does not cut the land, so a program that lights the torch must confirm this.
+/// Its head states it.
 void tell_lands(TorchJob& job, const FormatOptions& o) {
   for (const auto& cut : job.cuts) {
     if (cut.land == 0.0) continue;

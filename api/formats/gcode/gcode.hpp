@@ -9,27 +9,27 @@
 
 namespace tubecut::api {
 
-/// What a program cuts, one cut after the other.
+/// The cuts of a program, in order.
 struct TorchJob {
   double outer_radius = 0.0;
   double wall = 0.0;
   std::vector<torch::TorchCut> cuts = {};
   std::vector<std::string> lengths = {}, by_hand = {};  // lines of the header
-  // What lies at z = 0 and at phi = 0, where z goes, and from where one looks that way.
+  // Positions of z = 0 and phi = 0, the direction of z, and the viewing side.
   std::string zero = {}, onward = {}, line = {}, seen_from = {};
-  std::vector<std::string> process = {};  // lines of the header: what the machine's table says
-  double shortest_lead = 0.0;             // mm, where the lead is the table's
+  std::vector<std::string> process = {};  // lines of the header about the machine's table
+  double shortest_lead = 0.0;             // mm, if the lead comes from the table
 };
 /// Of the caption its option `passes`.
-/// Errors  throws UnfitOption: passes, where a land has no pass of its own.
+/// Errors  throws UnfitOption: passes, if a land has no separate pass.
 [[nodiscard]] TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table,
                                  const Caption& caption);
 /// A part in the order of its sequence; marks are lines of the header.
 [[nodiscard]] TorchJob torch_job(const part::PartSpec& spec, const part::Part& part,
                                  const Caption& caption);
 
-/// Throws UnfitOption (passes) where a program lights the torch along a bevel whose land of so many
-/// mm it does not cut, and nobody said that it is meant so.
+/// Throws UnfitOption (passes) if a program lights the torch along a bevel whose land of `land` mm
+/// it does not cut, and the request does not confirm it.
 void refuse_land(const std::string& of, double land, const FormatOptions& options);
 
 /// Query parameters a program along torch lines reads.
@@ -43,12 +43,12 @@ void refuse_land(const std::string& of, double land, const FormatOptions& option
 /// Each cut: retract, turn, approach; pierce height, torch, delay; cutting height; lead-in, cut,
 /// overcut, lead-out; torch out, retract. With a pivot length the linear axes are the pivot's, and
 /// the one square to the tube moves too; without, the control must know the tip and move its
-/// height. The torch is lit only by the option `torch`. Where a hole's torch tilts across, C is
-/// that tilt and, with a pivot length, Y the pivot's way across.
+/// height. The torch is lit only by the option `torch`. If a hole's torch tilts across, C is that
+/// tilt and, with a pivot length, Y is the pivot's position across.
 ///
-/// Errors    throws UnfitOption: lead_mm, start_deg, where a cut has no room or place for them; post,
-///           pivot_length_mm, axial, where the post lacks an axis; material, where the machine's
-///           table does not reach as thick.
+/// Errors    throws UnfitOption: lead_mm, start_deg, if a cut has no room or point for them; post,
+///           pivot_length_mm, axial, if the post lacks an axis; material, if the metal is thicker
+///           than the machine's table.
 /// Accuracy  X, Y, Z 1e-5 mm, A 1e-7 deg, B, C 1e-6 deg.
 [[nodiscard]] std::string print_gcode(TorchJob job, Caption caption);
 

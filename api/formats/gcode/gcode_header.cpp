@@ -26,7 +26,7 @@ std::string growing(const PostAxis& axis) {
   return (axis.reversed ? "falling " : "growing ") + letter(axis);
 }
 
-/// What a turn is counted in that is no angle.
+/// Returns the unit of a rotation that is not an angle.
 std::string turn_word(const PostAxis& turn) {
   switch (turn.unit) {
     case TurnUnit::deg:
@@ -50,7 +50,7 @@ std::string turn_unit(const PostAxis& turn, double outer_radius, const Post& pos
          post.length(diameter) + ", a turn is " + fixed(kTurn * turn.scale, turn.decimals);
 }
 
-/// One for all cuts, or each in their order; a mark has none.
+/// Returns one kerf for all cuts, or each in their order; a mark has no kerf.
 std::string kerfs(const std::vector<TorchCutPlaces>& cuts, const Post& post) {
   std::vector<double> all;
   for (const auto& cut : cuts)
@@ -61,7 +61,7 @@ std::string kerfs(const std::vector<TorchCutPlaces>& cuts, const Post& post) {
   return out + post.length(all.back()) + " in the order of the cuts";
 }
 
-/// What is read of the places alone.
+/// The values derived only from the positions.
 struct Extent {
   double least = 0.0, most = 0.0;  // of the axis along the tube, mm
   double length = 0.0;             // of all cuts with their leads, mm
@@ -96,7 +96,7 @@ std::string units_line(const Post& post, const PostAxis& turn) {
          (turn.unit == TurnUnit::deg ? "" : ", " + letter(turn) + " in " + turn_word(turn));
 }
 
-/// Where the axes' zeros are, and which way they go.
+/// Adds the zeros and the directions of the axes.
 void add_axes(const TorchJob& job, const TorchJoints& joints, const FormatOptions& o, Lines& out) {
   const auto& post = post_of(o);
   const auto& turn = joints.turn();

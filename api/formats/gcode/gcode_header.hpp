@@ -17,9 +17,9 @@ struct TorchCutPlaces {
   double kerf = 0.0;
   double radius = 0.0;  // of its leads
   bool mark = false;
-  std::size_t cut_first = 0, cut_last = 0;  // places between which it is no lead
+  std::size_t cut_first = 0, cut_last = 0;  // positions between which the torch cuts
 
-  /// Where the cut begins.
+  /// Returns the start of the cut.
   [[nodiscard]] const TorchPlace& start() const { return places[cut_first]; }
 };
 
@@ -40,14 +40,14 @@ struct Straightness {
 /// Those that end its head.
 [[nodiscard]] std::string gcode_hashes(const Caption& caption);
 
-/// What a machinist reads before he runs a program, as comments: piece and verdict, tube, where the
-/// axes' zeros are and which way they go, tool, feed, time, order, hashes.
+/// Returns the comments that a machinist reads before running a program: piece and verdict, tube,
+/// zeros and directions of the axes, tool, feed, time, order, hashes.
 [[nodiscard]] std::string program_header(const TorchJob& job,
                                          const std::vector<TorchCutPlaces>& cuts,
                                          const TorchJoints& joints, const Straightness& moves,
                                          const Caption& caption);
 
-/// What is said of a cut before its blocks.
+/// Returns the comment before a cut's blocks.
 [[nodiscard]] std::string cut_title(const TorchCutPlaces& cut, const TorchJoints& joints,
                                     const FormatOptions& options);
 

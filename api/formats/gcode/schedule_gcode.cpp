@@ -18,7 +18,7 @@ namespace {
 constexpr double kTolerance = 1.0;  // pulses
 constexpr std::string_view kTurning = "ABC", kStraight = "XYZUVW";
 
-/// The slopes of a line from where a move began that pass all samples since within the tolerance.
+/// The slopes of a line from the start of a move that pass all later samples within the tolerance.
 struct Cone {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -159,7 +159,7 @@ std::vector<AxisMove> axis_moves(const motion::Machine& machine, const Post& pos
   return out;
 }
 
-/// Straight to where the words say, evenly in so much time.
+/// Returns a straight move to the position in the words, at constant speed in the given time.
 std::string timed(const Post& post, const std::string& axes, double way, double seconds,
                   const std::vector<AxisMove>& moves) {
   const double rate = 60.0 / seconds;  // 1/min
@@ -180,7 +180,7 @@ void refuse_girth(const Post& post) {
                                   "or a program of the part"};
 }
 
-/// What an event switches or says.
+/// Returns the switch commands or comments of an event.
 std::string told(const motion::Event& event, const std::vector<std::string>& names,
                  const Caption& caption) {
   using enum motion::EventKind;
@@ -257,7 +257,7 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
       std::ranges::count(s.events, motion::EventKind::mark_on, &motion::Event::what) > 0)
     throw UnfitOption{"post", "post " + post.name + " has no mark_on, by which a tool marks"};
   const bool by_axes = feeds_by_axes(post.timed_move);
-  // In inverse time alone a move of no length takes time.
+  // Only in inverse time does a move of no length take time.
   const bool dwells = !names.empty() || post.timed_move.find("{per_minute}") == std::string::npos;
   Cursor at(s);
   std::string out = post_lines(post.begin) + header(machine, s, letters, contour, caption) +

@@ -9,8 +9,9 @@
 
 namespace tubecut::api {
 
-/// The letter of each axis of a machine in RS-274: the first letter of its name where that is free
-/// and of its kind (A B C turn, X Y Z U V W go straight), else the next free one of its kind.
+/// Returns the letter of each axis of a machine in RS-274: the first letter of its name if it is
+/// free and of the right type (A B C rotate, X Y Z U V W are linear), else the next free one of its
+/// type.
 [[nodiscard]] std::vector<char> axis_letters(const std::vector<motion::AxisPulses>& axes);
 
 /// Periods at which straight moves, uniform in time, begin and end so that every axis stays within
@@ -20,10 +21,10 @@ namespace tubecut::api {
                                                   double tolerance,
                                                   const std::stop_token& stop = {});
 
-/// A schedule as RS-274 for LinuxCNC: the axes' own values at such periods, each move in inverse
-/// time, so that the planned motion is kept in time as well. The torch (of a cut along a contour)
-/// is lit only by the option `torch`. `names`: of a program's cuts, which
-/// comments tell, and whose periods at rest are dwells; empty of a single cut.
+/// Returns a schedule as RS-274 for LinuxCNC: the axes' own values at these periods, each move in
+/// inverse time, so that the control keeps the planned times as well. The torch (of a cut along a
+/// contour) is lit only by the option `torch`. `names`: names of a program's cuts for comments;
+/// their periods at rest are dwells; empty for a single cut.
 /// Accuracy  1 pulse at every period, 1e-6 of an axis' unit at the ends of moves.
 [[nodiscard]] std::string print_schedule_gcode(const motion::Machine& machine,
                                                const motion::ScheduleSpec& spec,

@@ -11,7 +11,7 @@
 namespace tubecut::api {
 namespace {
 
-/// The axis, or any where it is not needed.
+/// Returns the axis, or a default one if it is not needed.
 PostAxis needed(const Post& post, PostRole role, bool is, std::string_view option,
                 std::string_view why) {
   const auto& axis = post.axis(role);

@@ -13,7 +13,7 @@ namespace tubecut::api {
 /// linear ones are the pivot's, and the one off the tube moves too; without, the control must know
 /// the tip and move its height.
 ///
-/// Errors  the constructor throws UnfitOption where the post lacks an axis that is needed.
+/// Errors  the constructor throws UnfitOption if the post lacks a needed axis.
 class TorchJoints {
  public:
   /// How the torch leans on any of the cuts.
@@ -27,12 +27,12 @@ class TorchJoints {
   /// The same without the height.
   [[nodiscard]] std::string level_words(const TorchPlace& at, double off) const;
   [[nodiscard]] std::string height(const TorchPlace& at, double off) const;
-  /// Where the tip is clear of the tube whichever way it swings; needs a pivot.
+  /// Returns the height at which the tip clears the tube in any swing; needs a pivot.
   [[nodiscard]] std::string clear_height() const;
-  /// Where the axis along the tube is.
+  /// Returns the position of the axis along the tube.
   [[nodiscard]] double along_at(const TorchPlace& at, double off) const;
-  /// How far all axes go as they are written, one deg as one unit of length: what a control counts
-  /// that feeds them all.
+  /// Returns the distance of all axes as written, with one deg as one unit of length, as a control
+  /// counts that feeds them all.
   [[nodiscard]] double distance(const TorchPlace& from, double from_off, const TorchPlace& to,
                                 double to_off) const;
 
@@ -40,7 +40,7 @@ class TorchJoints {
   /// most, with a torch that leans up to 60 deg.
   [[nodiscard]] double rounding(double wall) const;
 
-  /// What the words of a move tell of each axis, in their order.
+  /// Returns the axes in the words of a move, in their order.
   [[nodiscard]] std::vector<AxisMove> moves(const TorchPlace& from, double from_off,
                                             const TorchPlace& to, double to_off) const;
 
@@ -58,7 +58,7 @@ class TorchJoints {
   [[nodiscard]] double clearance() const { return clearance_; }
 
  private:
-  /// From the wall to what the linear axes carry: outwards, along and round.
+  /// From the wall to the point that the linear axes carry: outwards, along and round.
   struct Arm {
     double out, along, round;
   };

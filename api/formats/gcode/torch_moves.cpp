@@ -35,7 +35,7 @@ std::optional<Depth> depth(const TorchReach& r, double rho) {
       .root = d};
 }
 
-/// Bounds over a whole move: greatest |tan|, and of its first and second derivative.
+/// Bounds over a whole move: maximum |tan|, and of its first and second derivative.
 struct Tangent {
   double least, most, first, second;
 };
@@ -65,8 +65,8 @@ double tip_sag(const TorchReach& r, const Tangent& a, const Tangent& b) {
           2.0 * (squared(a.first) + squared(b.first)) / least);
 }
 
-/// Of the inner edge while the tip keeps to its line: second derivatives of where the line meets
-/// the inner wall, across (|w''| bounds ri |phi''|) and along.
+/// Bounds the sag of the inner edge while the tip keeps to its line, by the second derivatives of
+/// the line's intersection with the inner wall, across (|w''| bounds ri |phi''|) and along.
 double inner_sag(const Depth& d, const Tangent& a, const Tangent& b) {
   const double h1 = d.first * a.first, h2 = d.second * squared(a.first) + d.first * a.second;
   const double across = h2 * a.most + 2.0 * h1 * a.first + d.h * a.second;

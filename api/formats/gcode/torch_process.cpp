@@ -39,7 +39,7 @@ const ProcessRow& row_for(const MachineProcess& process, double metal) {
                                     " goes up to " + mm(most) + ", the beam through " + mm(metal)};
 }
 
-/// Takes a value of the table where the request has none; names those that the request has.
+/// Takes a value of the table if the request has no value; names those that the request has.
 class Taker {
  public:
   void take(std::optional<double>& value, double of_table, std::string_view called) {

@@ -5,11 +5,11 @@
 
 namespace tubecut::api {
 
-/// What the request's machine says of its torch, wherever the request says nothing itself: the row
-/// of the material for the thickest metal that the beam goes through. The job's header tells what
-/// was taken and what goes before it.
+/// Takes torch values from the request's machine if the request does not set them: the row of the
+/// material for the thickest metal in the beam. The job's header states the taken values and the
+/// overriding ones.
 ///
-/// Errors  throws UnfitOption: material, where the table does not reach as thick; machine, where its
+/// Errors  throws UnfitOption: material, if the metal is thicker than the table; machine, if its
 ///         name has no spelling in a program.
 void take_process(TorchJob& job, FormatOptions& options, const std::stop_token& stop);
 

@@ -8,7 +8,7 @@ namespace tubecut::api {
 
 static_assert(std::endian::native == std::endian::little, "glTF and STL are little endian");
 
-/// The bytes of a number as they stand in memory.
+/// Appends the bytes of a number as in memory.
 template <class T>
 void append_bytes(std::string& out, T value) {
   char raw[sizeof(T)];

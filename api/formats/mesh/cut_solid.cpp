@@ -87,7 +87,7 @@ Eigen::Vector3f normal(const Point& a, const Point& b, const Point& c) {
   return n.norm() > 0.0 ? Eigen::Vector3f((n / n.norm()).cast<float>()) : Eigen::Vector3f::Zero();
 }
 
-/// 80 bytes: what has no room is in the answer's header Tubecut-Verdict.
+/// Returns 80 bytes; text that does not fit is in the answer's header Tubecut-Verdict.
 std::string stl_header(const Caption& caption) {
   std::string out = "tubecut unit mm, facets within " + fixed(kFacetError) + " mm, verdict " +
                     verdict_in_short(caption.verdict);
@@ -122,7 +122,7 @@ Mesh coloured(std::string name, const CutSolid& solid, const std::vector<double>
   return out;
 }
 
-/// B of a ring from its own points, as a share of 60 deg.
+/// Returns B of a ring from its own points, as a fraction of 60 deg.
 std::vector<double> hues(const CutSolid& solid, const std::stop_token& stop) {
   std::vector<double> out;
   Pace pace(stop);

@@ -36,14 +36,14 @@ struct CutSolid {
                                  Smoothed which, const std::stop_token& stop);
 
 /// Triangles of the closed surface, counter-clockwise seen from outside, on single-precision points
-/// (those that coincide are one): what STL can hold.
+/// (equal ones merged), because STL has no other.
 struct TriangleMesh {
   std::vector<std::array<float, 3>> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 [[nodiscard]] TriangleMesh closed_mesh(const CutSolid& solid, const std::stop_token& stop);
 
-/// Binary STL, mm. The 80 bytes of its header say so, with the facet error and the job.
+/// Returns binary STL, mm. The 80 bytes of its header state the unit, the facet error and the job.
 [[nodiscard]] std::string print_cut_stl(const bevel::TableSpec& spec, const bevel::Table& table,
                                         const Caption& caption);
 /// glTF, nodes `before` and `after`; the cut's surface coloured by B.

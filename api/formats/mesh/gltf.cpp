@@ -20,7 +20,7 @@ struct BufferView {
   int target = 0;
 };
 
-/// Where the positions, colours and indices of each mesh stand in the binary part.
+/// Returns the positions of each mesh's coordinates, colours and indices in the binary part.
 std::vector<BufferView> views(const std::vector<Mesh>& meshes) {
   std::vector<BufferView> out;
   std::size_t from = 0;
@@ -90,7 +90,7 @@ void accessors(const std::vector<Mesh>& meshes, Writer& w, Pace& pace) {
   });
 }
 
-/// Numbers of the meshes that are what was before, or of all others.
+/// Returns the numbers of the meshes that are `before`, or of all others.
 std::string nodes_of(const std::vector<Mesh>& meshes, bool before) {
   std::string list;
   for (std::size_t i = 0; i < meshes.size(); ++i)
@@ -99,7 +99,8 @@ std::string nodes_of(const std::vector<Mesh>& meshes, bool before) {
   return list;
 }
 
-/// A viewer shows one scene: what was before has its own, so that it does not lie over what is.
+/// Returns the scenes. The shape before has its own, because viewers show one scene and it would
+/// cover the other.
 std::string scenes(const std::vector<Mesh>& meshes) {
   const auto before = nodes_of(meshes, true), after = nodes_of(meshes, false);
   if (before.empty()) return "[{\"nodes\":[" + after + "]}]";

@@ -18,16 +18,16 @@ struct Mesh {
   std::vector<std::uint32_t> indices;   // three a triangle, counter-clockwise seen from outside
   float opacity = 1.0F;
 
-  /// Room for so many positions: many that move as they grow would do it without a look at the stop
-  /// token.
+  /// Reserves memory for this number of positions, because moving many as they grow would delay the
+  /// next check of the stop token.
   void reserve(std::size_t count) {
     positions.reserve(count);
     colors.reserve(count);
   }
 };
 
-/// glTF 2.0 binary (.glb), one node a mesh, in metres as the format asks; flat normals are the
-/// viewer's. Verdict, reasons and warnings stand in the asset's extras.
+/// Returns glTF 2.0 binary (.glb), one node per mesh, in metres as the format requires; the viewer
+/// computes flat normals. Verdict, reasons and warnings are in the asset's extras.
 [[nodiscard]] std::string print_gltf(const std::vector<Mesh>& meshes, const Caption& caption);
 
 /// A colour of -1..1: blue (below), grey (0), red (above).

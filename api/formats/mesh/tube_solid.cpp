@@ -20,14 +20,14 @@ using Eigen::Vector3d;
 using Place = WallCurve::Place;
 
 constexpr double kApart = 3e-4;  // mm along a cut: nearer places are one
-/// A corner is a vertex of both edges where few rows are corners, some 0.6 kB; else it is within
-/// them, and the file has the edges on their cylinders too, some 0.1 kB a row.
+/// If few rows are corners, a corner is a vertex of both edges, some 0.6 kB; else it is within
+/// them, and the file also has the edges on their cylinders, some 0.1 kB a row.
 constexpr std::size_t kRowsPerCorner = 6;
 
 /// An edge used by a face.
 using Use = std::pair<std::size_t, bool>;
 
-/// A place of a cut where some or all of its edges have a vertex.
+/// A point of a cut at which some or all of its edges have a vertex.
 struct Station {
   Place place;
   double along = 0.0;
@@ -40,7 +40,7 @@ struct Station {
 struct LaidWall {
   const std::string& name;
   std::size_t wall, edges;
-  bool along;  // its rows run against the clock round what is kept below them, seen from outside
+  bool along;  // its rows run counter-clockwise round the kept metal below them, seen from outside
   std::vector<Station> stations;
   std::vector<std::vector<std::size_t>> at, piece;  // vertex at, edge behind, [edge][station]
 };
@@ -83,7 +83,7 @@ class Builder {
     std::vector<std::size_t> border;
   };
   struct Regions {
-    std::vector<Region> halves, holes;  // holes: what no seam meets
+    std::vector<Region> halves, holes;  // holes: those that no seam meets
   };
   [[nodiscard]] Regions regions(std::size_t side) const;
   [[nodiscard]] TubeSolid::Loop loop(std::size_t side, const Region& region) const;
@@ -144,7 +144,7 @@ void Builder::add_plane(const TubeCut& cut, double z) {
   out_.faces.push_back(std::move(face));
 }
 
-/// Two places where the wall of a hole is parted, far from each other and from all others.
+/// Adds two points at which the wall of a hole is split, far from each other and from all others.
 void part_across(const WallCurve& curve, std::vector<Station>& out) {
   for (int part = 0; part < 2; ++part) {
     double best = -1.0;
@@ -163,7 +163,7 @@ void part_across(const WallCurve& curve, std::vector<Station>& out) {
   }
 }
 
-/// The one there is at a place, or a new one.
+/// Returns the station at a point, or a new one.
 Station& station_at(const WallCurve& curve, const Place& place, bool across,
                     std::vector<Station>& out) {
   const double along = curve.along(place);
@@ -194,7 +194,7 @@ std::vector<Station> Builder::stations(const TubeCut& cut, const WallCurve& curv
       station.vertex.front() = station.vertex.back() = true;
     }
   std::ranges::sort(out, {}, &Station::along);
-  // It begins where every edge has a vertex.
+  // Begins at a point at which every edge has a vertex.
   std::ranges::rotate(out, std::ranges::find_if(out, &Station::across));
   return out;
 }

@@ -37,7 +37,7 @@ struct TubeSolid {
   };
   /// Edges head to tail, the face to the left as seen from outside; false: against its direction.
   using Loop = std::vector<std::pair<std::size_t, bool>>;
-  /// A half, whose surface begins on the other side: readers part a cylinder there.
+  /// A half, whose surface begins on the other side, because readers split a cylinder there.
   struct Cylinder {
     double radius = 0.0;
     double begins = 0.0;  // phi
@@ -63,8 +63,8 @@ struct TubeSolid {
   std::vector<WallSpline> walls;
 };
 
-/// The tube's wall between a start and a finish, without the holes; no two cuts may meet. Each
-/// cylinder is two faces that meet at the same two phases, where no hole is if that can be.
+/// Returns the tube's wall between a start and a finish, without the holes; no two cuts may meet.
+/// Each cylinder is two faces that meet at the same two phases, away from holes if possible.
 [[nodiscard]] TubeSolid tube_solid(double inner, double outer, const std::vector<TubeCut>& cuts,
                                    const std::stop_token& stop);
 

@@ -53,7 +53,7 @@ std::string print(const joint::Target& tube, const std::vector<TubeCut>& cuts,
                     product_of(tube, {}, caption), caption);
 }
 
-/// Where a hole lies to the cuts of both ends.
+/// Position of a hole relative to the cuts of both ends.
 enum class Lies { on_part, off_part, across_a_cut };
 
 Lies lies(const part::Part& part, const bevel::Hole& hole) {

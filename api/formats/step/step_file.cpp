@@ -16,7 +16,8 @@ void append_real(std::string& out, double value, int digits) {
   out.erase(out.find_last_not_of('0') + 1);
 }
 
-/// "CARTESIAN_POINT('',(0.,0.,1.))": the costliest part of a file, so in one buffer.
+/// "CARTESIAN_POINT('',(0.,0.,1.))": the most frequent line of a file, so it is written into one
+/// buffer.
 template <int N>
 std::string listed(std::string_view entity, const Eigen::Matrix<double, N, 1>& values,
                    const std::array<int, N>& digits) {

@@ -40,7 +40,7 @@ class StepEntities {
 [[nodiscard]] std::string step_ref(StepEntities::Id id);
 /// "(#1,#2)"
 [[nodiscard]] std::string step_refs(const std::vector<StepEntities::Id>& ids);
-/// A real: with a point, no more digits behind it than asked, no zeros at its end.
+/// Returns a real: with a point, at most `digits` digits after it, without trailing zeros.
 [[nodiscard]] std::string step_real(double value, int digits);
 /// A text that may be a client's, between its apostrophes.
 [[nodiscard]] std::string step_string(std::string_view text);

@@ -20,22 +20,22 @@ constexpr int kKnotDigits = 6;
 constexpr int kRadiusDigits = 9;
 constexpr double kThin = 3.0;  // mm
 /// mm: a cubic that is straight in (phi, z) is ahead of a line's parameter or behind it by at most
-/// 0.1 (angle^2 / 48) of its length; the line may stand for it up to this
+/// 0.1 (angle^2 / 48) of its length; up to this distance, the line replaces it
 constexpr double kAhead = 1e-4;
 constexpr double kRounded = kSplineError / 3.0;  // mm
 constexpr double kInLine = 1e-7;                 // of a span's length, off its line
-/// mm: how near a reader is to hold edges to their faces. What Open CASCADE finds of an edge on its
-/// face is a line to it where that is straight within this: with 0.0015 mm its volumes were up to
-/// 1e-5 off, from 5e-5 to 5e-4 up to 4e-7, and with 2e-5 up to 4e-6 again
+/// mm: distance within which a reader must hold edges to their faces. Open CASCADE computes the
+/// curve of an edge on its face as a line if it is straight within this: with 0.0015 mm its volumes
+/// were up to 1e-5 off, from 5e-5 to 5e-4 up to 4e-7, and with 2e-5 up to 4e-6 again
 constexpr double kClosed = 1e-4;
 
-/// A volume feels the mean of what is cut off, over the wall.
+/// Returns the number of digits: a volume depends on the mean rounding error, relative to the wall.
 int digits_for(double wall) { return wall < kThin ? 6 : 5; }
 
 std::string logical(bool value) { return value ? ".T." : ".F."; }
 
-/// Multiplicities and knots of a wall's spline from joint to joint: "(4,2,4),(0.,1.,2.)"; degree 1
-/// where all joints are full.
+/// Returns multiplicities and knots of a wall's spline from joint to joint: "(4,2,4),(0.,1.,2.)";
+/// degree 1 if all joints are full.
 std::string knots(const WallSpline& spline, std::size_t from, std::size_t to, int degree = 3) {
   std::string counts = "(" + std::to_string(degree + 1), at = "(0.";
   for (auto i = from + 1; i <= to; ++i) {
@@ -113,7 +113,7 @@ bool Printer::has_corner(const TubeSolid::Piece& piece) const {
   return false;
 }
 
-/// That each edge lies on; none where it is within a cut.
+/// Returns the cylinder of each edge; nullptr if the edge is within a cut.
 std::vector<const TubeSolid::Cylinder*> Printer::cylinders() const {
   std::vector<const TubeSolid::Cylinder*> out(solid_.edges.size(), nullptr);
   for (const auto& face : solid_.faces) {
@@ -145,8 +145,8 @@ bool Printer::polygonal(const TubeSolid::Piece& piece) const {
   return true;
 }
 
-/// With the cylinder's own (angle, height) of it beside it: readers that find those for themselves
-/// lay a smooth curve through its corners.
+/// Prints the curve together with its (angle, height) on the cylinder, because readers that compute
+/// those themselves put a smooth curve through its corners.
 Id Printer::on_cylinder(Id curve, const TubeSolid::Piece& piece,
                         const TubeSolid::Cylinder& cylinder) {
   const auto& spline = solid_.walls[piece.wall];
@@ -345,7 +345,8 @@ void StepFile::assembly(const Product& product, const std::vector<Placed>& parts
   std::vector<Id> places{e.placement({0, 0, 0})};
   for (const auto& part : parts) {
     pace_.turn();
-    // One after the other: in one expression each compiler numbers them in an order of its own.
+    // In separate statements, because within one expression each compiler numbers them in its own
+    // order.
     const auto x = e.direction(part.rows.row(0)), z = e.direction(part.rows.row(2));
     const auto at = e.point(Eigen::Vector3d(part.origin));
     places.push_back(e.add("AXIS2_PLACEMENT_3D(''," + step_ref(at) + "," + step_ref(z) + "," +

@@ -12,7 +12,7 @@
 
 namespace tubecut::api {
 
-/// What the file calls a solid.
+/// The file's name of a solid.
 struct Product {
   std::string id, name, revision;
 };
@@ -34,7 +34,7 @@ class StepFile {
     Eigen::Matrix3d rows;
   };
 
-  /// `thinnest`: wall of its solids, which says how many digits their coordinates need.
+  /// `thinnest`: wall of its solids, which determines the digits of their coordinates.
   StepFile(double thinnest, const Caption& caption);
 
   Shape solid(const TubeSolid& solid, const Product& product);

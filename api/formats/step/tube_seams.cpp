@@ -41,7 +41,7 @@ std::vector<Spread> spreads(const std::vector<TubeCut>& cuts) {
   return out;
 }
 
-/// Where an end's cut runs along a generator.
+/// Returns the phases at which an end's cut runs along a generator.
 std::vector<double> jumps(const std::vector<TubeCut>& cuts) {
   std::vector<double> out;
   for (const auto& cut : cuts) {
@@ -58,7 +58,7 @@ std::vector<double> jumps(const std::vector<TubeCut>& cuts) {
 /// From a phase to another, the nearer way round.
 double apart(double a, double b) { return std::abs(math::whole_turn(a - b + kPi) - kPi); }
 
-/// How badly a generator suits as a seam; infinite where it cannot be one.
+/// Returns the cost of a generator as a seam; infinite if it cannot be one.
 double badness(double phi, const std::array<double, 2>& radius, const std::vector<Spread>& holes,
                const std::vector<double>& jumps) {
   double out = 0.0;
@@ -93,7 +93,7 @@ std::array<double, 2> tube_seams(double inner, double outer, const std::vector<T
   for (int i = 0; i < kSeamPhases; ++i)
     for (int j = i + kSeamPhases / 6; j < kSeamPhases && j - i <= kSeamPhases - kSeamPhases / 6;
          ++j) {
-      // Halves of one size, where that costs nothing.
+      // Prefers halves of one size at equal cost.
       const double here = bad[static_cast<std::size_t>(i)] + bad[static_cast<std::size_t>(j)] +
                           std::abs(j - i - kSeamPhases / 2) / (4.0 * kSeamPhases);
       if (here < best) {

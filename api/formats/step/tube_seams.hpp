@@ -8,8 +8,9 @@
 
 namespace tubecut::api {
 
-/// The two phases, ascending, at which the halves of a tube meet: a sixth of the turn apart or
-/// more, through as few holes as can be, along no side of one and along no cut.
+/// Returns the two phases, ascending, at which the halves of a tube meet: at least a sixth of a
+/// revolution between them, through as few holes as possible, not along a side of a hole or along a
+/// cut.
 [[nodiscard]] std::array<double, 2> tube_seams(double inner, double outer,
                                                const std::vector<TubeCut>& cuts,
                                                const std::stop_token& stop);

@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 constexpr double kOffCylinder = 1e-6;  // of the wall: how far an edge may leave its cylinder
 constexpr double kOffRows = 2e-4;      // mm: how far a curve may leave the rows as laid,
 constexpr double kOffRadius = 6e-6;    // and of the radius
-// Through the rows there is no such volume to keep; with the rounding of its numbers it stays
-// within 1e-3 mm of them.
+// If the curve passes through the rows, it need not keep that volume; with the rounding of its
+// numbers it stays within 1e-3 mm of them.
 constexpr double kOffRowsThrough = 7e-4;
 constexpr double kOffRadiusThrough = 2e-5;
 constexpr double kRoundedSag = kSplineError / 0.75;  // mm, of rows that one curve may pass,
@@ -27,8 +27,8 @@ constexpr std::size_t kShortestRun = 8;              // of such rows
 constexpr double kSharp = 0.3;   // rad: a bend above it is a corner, however short its sides
 constexpr double kKink = 4.0;    // a turn to those on either side of it
 constexpr double kWidest = 0.5;  // rad, of a span
-// mm, of a cubic in space to that in (phi, z) at one parameter. A reader that finds more between
-// them than the file's uncertainty fits one of its own, which swings at the corners.
+// mm, of a cubic in space to that in (phi, z) at one parameter. If a reader finds a larger distance
+// between them than the file's uncertainty, it fits its own curve, which swings at the corners.
 constexpr double kOffFlat = 6e-5;
 constexpr std::size_t kForgotten = 54;  // 2^-54 is below the last bit
 constexpr double kKnotDistance = 3e-4;  // mm along the rows: nearer places are one
@@ -96,8 +96,8 @@ WallCurve WallCurve::smooth(const bevel::CutWall& wall, const std::vector<bool>&
   return out;
 }
 
-/// How an edge turns at each of its rows: rad, per mm of the lines beside it, and how far a curve
-/// that turns so much lies off them.
+/// Turn of an edge at each of its rows: rad, per mm of the adjacent lines, and the distance of a
+/// curve with that turn from them.
 struct WallCurve::Bend {
   double angle = 0.0, rate = 0.0, off = 0.0;
   bool still = false;  // a row that is the one before it, on this edge
@@ -126,8 +126,8 @@ std::vector<WallCurve::Bend> WallCurve::bends(const Edge& edge) const {
   return out;
 }
 
-/// A row is none where a curve can turn from the line before it to the one behind it near enough to
-/// both, and so at the rows beside it: a single one would gain nothing.
+/// Finds the lines. A row is not a line if a curve can turn from the previous line to the next one
+/// near enough to both, and also at the adjacent rows, because a single one would gain nothing.
 void WallCurve::find_lines() {
   const auto n = rows();
   const double most = std::min(kRoundedSag, kRoundedRadius * edges_.back().radius);
@@ -138,7 +138,7 @@ void WallCurve::find_lines() {
   }
   if (std::ranges::find(corner_, true) == corner_.end()) return;
   const auto first = static_cast<std::size_t>(std::ranges::find(corner_, true) - corner_.begin());
-  std::size_t run = 0;  // of rows that are none
+  std::size_t run = 0;  // of rows that are not lines
   for (std::size_t i = first + 1; i <= first + n; ++i) {
     if (!corner_[i % n]) {
       ++run;
@@ -150,8 +150,8 @@ void WallCurve::find_lines() {
   }
 }
 
-/// A row where an edge turns much more than on both sides of it; the turn of one that has its
-/// corner between two rows is at both.
+/// Finds rows at which an edge turns much more than on both sides of it; if a corner lies between
+/// two rows, both have its turn.
 void WallCurve::find_kinks() {
   const auto n = rows();
   for (const auto& edge : edges_) {
@@ -166,8 +166,8 @@ void WallCurve::find_kinks() {
   }
 }
 
-/// Slopes and, `centred`, how far beside its row the curve passes: the line between two rows lies
-/// h^2 f''/12 off the curve through them in the mean.
+/// Computes slopes and, if `centred`, the distance at which the curve passes its row: on average
+/// the line between two rows lies h^2 f''/12 off the curve through them.
 void WallCurve::lay(bool centred) {
   const auto n = rows();
   for (auto& edge : edges_) {
@@ -194,14 +194,14 @@ void WallCurve::lay(bool centred) {
   }
 }
 
-/// Slopes with which the curve has one curvature at each row between two corners, beside a corner
-/// one from there to the next row: each is `put` less its shares of those before and behind it. A
-/// slope feels one that is k rows away by less than 2^-k, so a ring is solved as a line that goes
-/// on for kForgotten rows beyond its end.
+/// Computes slopes with which the curve has one curvature at each row between two corners, and next
+/// to a corner one from there to the next row: each is `put` minus its fractions of the previous
+/// and the next. A row k rows away affects a slope by less than 2^-k, so a ring is solved as a line
+/// that continues for kForgotten rows beyond its end.
 void WallCurve::bend_evenly(Edge& edge) const {
   const auto n = rows();
   std::vector<Vector2d> put(n, Vector2d::Zero());
-  std::vector<double> behind(n, 0.0);  // the share, once what is before is put in
+  std::vector<double> behind(n, 0.0);  // the factor, once the previous ones are substituted
   const auto forward = [&](std::size_t i) {
     const auto before = (i + n - 1) % n, next = (i + 1) % n;
     const double h = length_[before], k = length_[i];

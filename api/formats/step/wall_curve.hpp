@@ -13,15 +13,14 @@ namespace tubecut::api {
 
 /// The edges of a cut wall as curves on their cylinders.
 ///
-/// `straight`: as the answer has them, straight in (phi, z) from row to row. Where the rows are so
-/// near to each other that a smooth curve stays within kSplineError of those lines, it is that
-/// curve, a little off the rows so that it leaves as much on one side of the lines as on the other;
-/// elsewhere every row is a corner.
-/// `smooth`: through the rows, with one curvature at each, and corners at the given ones and where
-/// an edge turns far more than beside it.
+/// `straight`: the answer's curve, straight in (phi, z) from row to row. If the rows are so close
+/// that a smooth curve stays within kSplineError of those lines, it is that curve, shifted slightly
+/// off the rows so that both sides of the lines lose equally; elsewhere every row is a corner.
+/// `smooth`: through the rows, with one curvature at each, and corners at the given ones and at
+/// rows where an edge turns far more than at the adjacent ones.
 class WallCurve {
  public:
-  /// Of a row and the share of the way to the next.
+  /// Row and fraction of the distance to the next.
   struct Place {
     std::size_t row = 0;
     double share = 0.0;
@@ -38,9 +37,9 @@ class WallCurve {
   /// How far along the rows, mm; `around()` in all.
   [[nodiscard]] double along(const Place& place) const;
   [[nodiscard]] double around() const { return around_; }
-  /// Where its edges have no one slope, ascending.
+  /// Returns the points, ascending, at which its edges have two slopes.
   [[nodiscard]] std::vector<Place> corners() const;
-  /// Where an edge crosses the generator phi, whatever the turn.
+  /// Returns the points at which an edge crosses the generator phi, in any turn.
   [[nodiscard]] std::vector<Place> crossings(std::size_t edge, double phi) const;
 
   /// `stations`: joints of it, at least one, ascending; it begins at the first.
@@ -53,10 +52,10 @@ class WallCurve {
     double widest = 0.0;                             // rad, of a span
     std::vector<Eigen::Vector2d> row;                // as given
     std::vector<Eigen::Vector2d> gap;                // from each to the next
-    std::vector<Eigen::Vector2d> knot;               // where the curve passes it
+    std::vector<Eigen::Vector2d> knot;               // position of the curve there
     std::vector<Eigen::Vector2d> arriving, leaving;  // its slopes there, per mm along the rows
   };
-  /// Where an edge is, in (phi, z) or in space, and its slopes on both sides, per mm along the
+  /// Position of an edge, in (phi, z) or in space, and its slopes on both sides, per mm along the
   /// rows.
   template <typename Point>
   struct Passing {
@@ -66,7 +65,7 @@ class WallCurve {
     Passing<Eigen::Vector2d> flat;
     Passing<Eigen::Vector3d> space;
   };
-  /// A place where a span may begin: a row, a station, or one in a long gap.
+  /// A point at which a span may begin: a row, a station, or one in a long gap.
   struct Node {
     Place place;
     double along = 0.0;  // from the first station
@@ -116,8 +115,8 @@ class WallCurve {
   std::vector<double> length_, along_;  // of the gap behind each row; up to each row
   std::vector<bool> corner_;
   double turn_ = 0.0, around_ = 0.0;
-  double off_cylinder_ = 0.0, off_rows_ = 0.0;  // what a span may leave it by, mm
-  std::optional<double> off_flat_;  // and its twin in (phi, z), where that is printed, mm
+  double off_cylinder_ = 0.0, off_rows_ = 0.0;  // permitted deviation of a span, mm
+  std::optional<double> off_flat_;  // and of its twin in (phi, z), if that is printed, mm
 };
 
 }  // namespace tubecut::api

@@ -15,14 +15,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kUneven = 6.0;  // a span to the one beside it
+constexpr double kUneven = 6.0;  // ratio of a span to an adjacent one
 
 Vector3d on_wall(double radius, const Vector2d& p) {
   const auto [sin, cos] = elementary::sincos(p.x());
   return {radius * cos, radius * sin, p.y()};
 }
 
-/// What makes a third of an arc's parameter the handle of the cubic nearest to it.
+/// Returns the factor from a third of an arc's parameter to the handle of the nearest cubic.
 double handle(double dphi) {
   if (std::abs(dphi) < 1e-4) return 1.0 / 3.0;
   return 4.0 / 3.0 * elementary::tan(dphi / 4.0) / dphi;
@@ -38,7 +38,7 @@ Vector3d slope(const std::array<Vector3d, 4>& c, double u) {
   return 3.0 * (v * v * (c[1] - c[0]) + 2.0 * u * v * (c[2] - c[1]) + u * u * (c[3] - c[2]));
 }
 
-/// Both halves of a cubic behind what there is of each.
+/// Appends both halves of a cubic to each.
 template <typename Point>
 void halve(const std::array<Point, 4>& c, std::vector<std::array<Point, 4>>& low,
            std::vector<std::array<Point, 4>>& high) {
@@ -48,7 +48,7 @@ void halve(const std::array<Point, 4>& c, std::vector<std::array<Point, 4>>& low
   high.push_back({middle, bd, d, c[3]});
 }
 
-/// The control points of a cubic behind the one it begins at; its end only where it counts as one.
+/// Appends the control points of a cubic after its start; its end only if it counts as one.
 template <typename Point>
 void append(const std::array<Point, 4>& c, bool full, std::vector<Point>& out) {
   out.insert(out.end(), {c[1], c[2]});
@@ -161,8 +161,8 @@ std::vector<WallCurve::Span> WallCurve::spans(const std::vector<Node>& nodes,
   return out;
 }
 
-/// The same curve, no span much wider than those beside it: readers put curves through points of
-/// each span, and such curves swing where a short one stands by a long one.
+/// Returns the same curve with no span much wider than the adjacent ones, because readers put
+/// curves through points of each span, and such curves swing if a short span follows a long one.
 std::vector<WallCurve::Span> WallCurve::graded(std::vector<Span> spans,
                                                const std::stop_token& stop) {
   for (bool changed = true; changed;) {

@@ -6,8 +6,8 @@
 
 namespace tubecut::api {
 
-/// A spline stays this near to the curve it stands for, mm; rows straight from one to the next are
-/// one curve where it can turn from line to line within that.
+/// Maximum distance of a spline from its curve, mm; straight rows become one curve if it can turn
+/// from line to line within that.
 inline constexpr double kSplineError = 1.5e-3;
 
 /// A closed row of cubic splines, one an edge of the wall, with common knots: the wall is straight
@@ -15,7 +15,8 @@ inline constexpr double kSplineError = 1.5e-3;
 struct WallSpline {
   struct Joint {
     double u = 0.0;
-    bool full = true;         // a knot of full multiplicity, where the curve has a point of its own
+    bool full = true;         // a knot of full multiplicity, at which the curve has a separate
+                              // point
     std::size_t control = 0;  // that point, in each edge's list
   };
   std::vector<Joint> joints;                         // the last is the first again, a turn on
