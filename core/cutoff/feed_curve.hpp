@@ -1,3 +1,5 @@
+#pragma once
+
 // Computes the cylinder motion that gives a rotary cut-off machine a constant tool feed.
 //
 // Idea: the linkage has a closed inverse, so strokes, speeds and accelerations are exact. A
@@ -10,7 +12,6 @@
 //     spec.cut = {cutoff::FeedWindow{16.588, 98.027}, 0.87};
 //     const auto curve = cutoff::feed_curve(spec).value();
 //     const double error = curve.fit.errors.max_relative_error;  // 0.0021
-#pragma once
 
 #include <optional>
 #include <stop_token>

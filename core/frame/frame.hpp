@@ -1,3 +1,5 @@
+#pragma once
+
 // Finds the joints of a structure once, and from each both sides of it as parts to cut.
 //
 // Idea: a joint determines the branch's end and the chord's hole, or both faces of a mitre. Because
@@ -11,7 +13,6 @@
 //     spec.within = 1;
 //     const auto frame = frame::solve(spec).value();
 //     const auto joints = frame.joints.size();  // 2
-#pragma once
 
 #include <optional>
 #include <span>

@@ -1,3 +1,5 @@
+#pragma once
+
 // Computes a groove whose filler has the same area in every section of a pipe junction.
 //
 // Idea: in each section the chord is an arc of an ellipse, so the height of the groove that gives
@@ -11,7 +13,6 @@
 //     spec.filler = groove::FillerArea{120};
 //     const auto groove = groove::groove(spec).value();
 //     const double height = groove.height_min;  // mm: 8.46
-#pragma once
 
 #include <Eigen/Core>
 #include <optional>

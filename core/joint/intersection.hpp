@@ -1,3 +1,5 @@
+#pragma once
+
 // Computes the curve along which a tube must be cut to fit its partners.
 //
 // Idea: on each line of the target parallel to its axis, the cut is at the highest contact of any
@@ -11,7 +13,6 @@
 //     spec.sampling.uniform_points = 360;
 //     const auto cut = joint::intersect(spec).value();
 //     const double length = cut.profiles[1].length;  // mm, on the outer surface: 208.4
-#pragma once
 
 #include <span>
 #include <stop_token>

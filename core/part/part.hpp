@@ -1,3 +1,5 @@
+#pragma once
+
 // Computes both ends and the holes of one member in one frame, with lengths, mass and marks.
 //
 // Idea: each end is a bevel table in its own frame. The partners are rotated first, so that both
@@ -14,7 +16,6 @@
 //     }
 //     const auto part = part::part(spec).value();
 //     const double longest = part.lengths.longest;  // mm, tip to tip: 698.4
-#pragma once
 
 #include <optional>
 #include <stop_token>

@@ -1,3 +1,5 @@
+#pragma once
+
 // Lays out the motion around every cut of a part: start, lead, heights, tabs and pierce.
 //
 // Idea: pulses and G-code are two outputs of the same program, so both have the same start points,
@@ -14,7 +16,6 @@
 //     setup.lead = motion::Lead{};
 //     const auto program = torch::program_cut(cut, setup, true).value();
 //     const auto points = program[0].way.points.points.size();  // 411
-#pragma once
 
 #include <cstddef>
 #include <optional>

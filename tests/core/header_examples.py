@@ -1,6 +1,6 @@
 """Writes a GoogleTest source with the example of every header: header_examples.py SOURCE_DIR OUT HEADER...
 
-An example is the indented code in the comment at the top of a header. Each becomes a test. A number at the end of a
+An example is the indented code in the comment that begins a header. Each becomes a test. A number at the end of a
 comment, as in `const double height = groove.height_min;  // mm: 8.46`, is asserted within half a unit of its last digit.
 """
 import pathlib
@@ -13,11 +13,10 @@ FLAG = re.compile(r"const bool (\w+) = ")
 
 def code_of(header):
     """The lines of the example, or an error if the header has none at its top."""
-    lines = header.read_text().splitlines()
-    top = lines[: next(i for i, line in enumerate(lines) if not line.startswith("//"))]
-    code = [line[7:] for line in top if line.startswith("//     ")]
+    top = re.match(r"#pragma once\n\n((?://.*\n)+)", header.read_text())
+    code = [line[7:] for line in top[1].splitlines() if line.startswith("//     ")] if top else []
     if not code:
-        sys.exit(f"{header}: no example in the comment at its top")
+        sys.exit(f"{header}: the comment that begins it has no example")
     return code
 
 

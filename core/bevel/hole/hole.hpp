@@ -1,3 +1,5 @@
+#pragma once
+
 // Computes the hole in a chord for a branch, and the end of the branch that fits it.
 //
 // Idea: the hole is a curve over the branch's own phase, because it turns around the branch. Its
@@ -11,7 +13,6 @@
 //     spec.sampling.uniform_points = 360;
 //     const auto cut = bevel::hole(spec).value();
 //     const double length = cut.holes[0].length_total;  // mm, of the root: 166.7
-#pragma once
 
 #include <optional>
 #include <stop_token>

@@ -1,3 +1,5 @@
+#pragma once
+
 // Smooths the bevel angle B along a closed path, so that the swing axis can follow.
 //
 // Idea: the result is never below B, because a smaller angle enters a partner. Of all curves within
@@ -11,7 +13,6 @@
 //     const auto limits = bevel::bevel_rate_limits(0.8, 5, 10, 0.8).value();
 //     const auto smooth = bevel::envelope(path, {limits}).value();
 //     const double area = bevel::area_above(path, smooth.b);  // rad mm: 4.55
-#pragma once
 
 #include <cstddef>
 #include <limits>

@@ -1,3 +1,5 @@
+#pragma once
+
 // Computes the bevel table of one cut end: heights of both edges and the torch's angle B by phi.
 //
 // Idea: the groove rule gives a B at each row, the partners give the smallest B that keeps them out
@@ -13,7 +15,6 @@
 //     spec.smoothing = bevel::NoSmoothing{};
 //     const auto table = bevel::table(spec).value();
 //     const double b = table.b[90] * kDegPerRad;  // deg, at phi = 90 deg: 15.0
-#pragma once
 
 #include <optional>
 #include <stop_token>

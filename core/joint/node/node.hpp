@@ -1,3 +1,5 @@
+#pragma once
+
 // Finds at every end of every member which members join it, which of them cut it, and where.
 //
 // Idea: a total order (priority, then diameter) determines who cuts whom, so two members never cut
@@ -11,7 +13,6 @@
 //     const auto nodes = joint::solve(spec).value();
 //     const auto& cut = nodes.ends[2].cut_by[0];  // the start of member 1, cut by member 0
 //     const double deg = cut.placement.tube.inclination.deg();  // between the axes: 60.0
-#pragma once
 
 #include <Eigen/Core>
 #include <cstddef>

@@ -1,3 +1,5 @@
+#pragma once
+
 // Rebuilds the torch from the pulses of a schedule and checks it against the contour.
 //
 // Idea: forward kinematics by formulas that the planner does not use. Every invariant (limits,
@@ -13,7 +15,6 @@
 //     job.machine = motion::catalogue().front().machine;
 //     const auto checks = motion::verify(job, motion::schedule(job).value());
 //     const bool passed = std::ranges::all_of(checks, &Check::passed);
-#pragma once
 
 #include <cstddef>
 #include <cstdint>

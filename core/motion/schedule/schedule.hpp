@@ -1,3 +1,5 @@
+#pragma once
+
 // Computes the pulses of every axis of a machine in every control period of a cut.
 //
 // Idea: the path has one parameter u, and the axes follow from it exactly. Limits and filters only
@@ -16,7 +18,6 @@
 //     job.machine = motion::catalogue().front().machine;
 //     const auto schedule = motion::schedule(job).value();
 //     const double seconds = schedule.period * double(schedule.periods);  // 36.0
-#pragma once
 
 #include <cstddef>
 #include <cstdint>
