@@ -164,7 +164,8 @@ tl::expected<std::string, Refusal> Access::identify(const Headers& headers) cons
   const auto sent = digest(sent_key(headers));
   const std::lock_guard lock(mutex_);
   const ApiKey* found = nullptr;
-  for (const auto& key : keys_) {  // all of them, whichever matches
+  for (const auto& key : keys_) {  // compares all keys, so that the time does not reveal which one
+                                   // matches
     if (CRYPTO_memcmp(key.sha256.data(), sent.data(), sent.size()) == 0) found = &key;
   }
   if (found != nullptr) return found->identity;
@@ -241,7 +242,7 @@ std::string client_of(const Request& request, const std::vector<std::string>& pr
     std::ranges::move(api::header_list(value), std::back_inserter(hops));
   for (; !hops.empty() && in_networks(client, proxies); hops.pop_back()) {
     std::string last(hops.back().name);
-    if (!parse_address(last)) break;  // what a proxy of ours did not write is not believed
+    if (!parse_address(last)) break;  // trust only addresses that our own proxies wrote
     client = std::move(last);
   }
   return client;

@@ -28,17 +28,17 @@ struct ApiKey {
 /// Who may use the service. Without a file everybody may. Safe to call from many threads.
 class Access {
  public:
-  /// Empty name: no keys are asked for.
+  /// If the name is empty, no key is required.
   explicit Access(std::string file) : file_(std::move(file)) {}
 
-  /// Reads the file again; what is wrong with it, or nothing. When something is, the keys stay as
-  /// they were.
+  /// Reads the file again. Returns an error text, or an empty text. If the file has an error, the
+  /// keys stay as they were.
   [[nodiscard]] std::string load();
 
   [[nodiscard]] bool asks() const { return !file_.empty(); }
 
-  /// Whose key the request carries (`Authorization: Bearer KEY` or `X-Api-Key: KEY`); empty
-  /// identity where no keys are asked for. The time taken does not tell how much of a key is right.
+  /// Returns the owner of the request's key (`Authorization: Bearer KEY` or `X-Api-Key: KEY`), or
+  /// an empty identity if no keys are required. Takes the same time for any wrong key.
   [[nodiscard]] tl::expected<std::string, Refusal> identify(const Headers& headers) const;
 
   /// Takes one request off the identity's rate, at that monotonic time in seconds.
@@ -74,11 +74,11 @@ struct NewKey {
 /// Whether a browser could send it as `Origin`: "https://plant.example:8443".
 [[nodiscard]] bool is_origin(std::string_view text);
 
-/// Whether `peer` lies in one of the addresses or networks ("10.0.0.0/8"). Wrong texts match
-/// nothing.
+/// Returns whether `peer` lies in one of the addresses or networks ("10.0.0.0/8"). Malformed texts
+/// match nothing.
 [[nodiscard]] bool in_networks(std::string_view peer, const std::vector<std::string>& networks);
 
-/// The client a request came from: the peer, or where the peer is one of `proxies`, the last
+/// Returns the address of the client: the peer, or, if the peer is one of `proxies`, the last
 /// address of X-Forwarded-For that is not.
 [[nodiscard]] std::string client_of(const Request& request,
                                     const std::vector<std::string>& proxies);

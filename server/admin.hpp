@@ -8,7 +8,7 @@
 
 namespace tubecut::server {
 
-/// What the admin port shows.
+/// The sources of the admin port's pages.
 struct AdminSources {
   std::function<bool()> ready;
   std::function<std::string()> metrics;

@@ -69,14 +69,15 @@ struct AdminPort::Impl final : httplib::Server {
       return HandlerResponse::Handled;
     });
     set_exception_handler([](const httplib::Request&, httplib::Response& out,
-                             const std::exception_ptr&) {  // 0.11 says `what` in a header
+                             const std::exception_ptr&) {  // cpp-httplib 0.11 sends the exception's
+                                                           // text in a header
       out.headers.clear();
       out.status = 500;
       out.set_content("The service failed.\n", "text/plain; charset=utf-8");
     });
   }
 
-  /// What is wrong, or nothing.
+  /// Returns an error text, or an empty text.
   std::string bind(const std::string& host, int wanted) {
     number = wanted == 0 ? bind_to_any_port(host) : (bind_to_port(host, wanted) ? wanted : -1);
     if (number < 0) {

@@ -10,8 +10,8 @@
 
 namespace tubecut::server {
 
-/// The port of the probes and metrics, for the operator's network: cpp-httplib's own server, with
-/// threads of its own, so that it answers whatever the load on the service's port.
+/// The port of the probes and metrics, for the operator's network: cpp-httplib's own server with
+/// its own threads, so that it answers under any load on the service's port.
 class AdminPort {
  public:
   /// At a time; more wait.
@@ -38,7 +38,8 @@ class AdminPort {
   std::unique_ptr<Impl> x_;
 };
 
-/// The status that a GET of `path` answers; nothing when nobody does within `patience`.
+/// Returns the status that a GET of `path` answers, or nothing if no answer comes within
+/// `patience`.
 [[nodiscard]] std::optional<int> probe(const std::string& host, int port, const std::string& path,
                                        std::chrono::milliseconds patience);
 

@@ -26,7 +26,7 @@ constexpr std::string_view kAllowed =
 
 bool visible(char c) { return c > 0x20 && c < 0x7f; }
 
-/// HEAD asks for the head of what GET answers.
+/// HEAD returns the head of the GET answer.
 std::string_view asked_method(const Request& request) {
   return request.method == "HEAD" ? std::string_view("GET") : std::string_view(request.method);
 }
@@ -73,7 +73,8 @@ void add_if(Headers& headers, std::string_view name, const std::string& value) {
   if (!value.empty()) headers.emplace_back(name, value);
 }
 
-/// The time a client gives its job in ms; 0: it names none. Nothing when it names nonsense.
+/// Returns the time in ms that a client gives its job; 0 if it gives no time, nothing if the value
+/// is not valid.
 std::optional<std::chrono::milliseconds> asked_budget(const Headers& headers) {
   const auto values = header_values(headers, kBudgetHeader);
   if (values.empty()) return std::chrono::milliseconds(0);
@@ -239,7 +240,7 @@ api::Outcome App::answer(const Request& request, const Identity& id) const {
   return outcome;
 }
 
-/// The one place where an exception ends.
+/// The only place that catches all exceptions.
 api::Outcome App::answer_guarded(const Request& request, const Identity& id,
                                  std::string& failure) const {
   try {
@@ -304,7 +305,7 @@ Response App::handle(const Request& request) const {
   return response;
 }
 
-/// Whose key it carries; empty without a right one.
+/// Returns the owner of the request's key; empty if the key is not valid.
 std::string App::identity_of(const Request& request) const {
   return x_.access ? x_.access->identify(request.headers).value_or(std::string{}) : std::string{};
 }

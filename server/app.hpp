@@ -17,7 +17,7 @@
 
 namespace tubecut::server {
 
-/// What became of one request, for the log and the metrics: never its geometry.
+/// Outcome of one request, for the log and the metrics; never its geometry.
 struct JobRecord {
   api::JobFacts facts = {};
   std::string method = {};
@@ -25,7 +25,7 @@ struct JobRecord {
   std::string traceparent = {};
   std::string replica = {};
   std::string client = {};    // address; a forwarded one only from a trusted proxy
-  std::string identity = {};  // whose key; empty without keys
+  std::string identity = {};  // owner of the key; empty without keys
   std::string failure = {};   // text of an unexpected exception; the caller never sees it
   int status = 0;
   double seconds = 0.0;  // in `handle`
@@ -43,16 +43,18 @@ struct AppOptions {
   std::string replica = {};  // value of Tubecut-Replica
   std::size_t max_target_bytes = 8192;
   std::size_t max_body_bytes = 8u << 20;  // lowers the endpoints' own limits, never raises them
-  /// What the memory has room for by one job of most endpoints; the transport refuses more.
+  /// Largest body of a job of most endpoints that fits in the memory; the transport refuses larger
+  /// ones.
   std::size_t max_job_body_bytes = std::numeric_limits<std::size_t>::max();
-  /// What jobs and answers share, in bytes.
+  /// Bytes that jobs and answers share.
   std::size_t memory = std::numeric_limits<std::size_t>::max();
-  std::stop_token stop = {};            // cancels every job
-  std::chrono::milliseconds budget{0};  // CPU of any job; 0: what its endpoint has by default
+  std::stop_token stop = {};                      // cancels every job
+  std::chrono::milliseconds budget{0};            // CPU of any job; 0: the endpoint's default
   std::vector<std::string> cors_origins = {};     // "https://plant.example"; empty: no CORS
-  std::vector<std::string> trusted_proxies = {};  // whose X-Forwarded-For is believed
-  /// Names by which Host may call the service besides those of this machine alone; none: any may.
-  /// A page whose name is rebound to this machine's address would else speak to it from a browser.
+  std::vector<std::string> trusted_proxies = {};  // proxies whose X-Forwarded-For is trusted
+  /// Names by which Host may call the service, in addition to those of this machine; nullopt: any
+  /// name. Otherwise a page could rebind its name to this machine's address and reach the service
+  /// from a browser.
   Hosts hosts = {};
   std::shared_ptr<Access> access = {};  // empty: no keys
   std::function<api::Outcome(const api::Call&, const api::Context&)> dispatch = api::dispatch;
@@ -71,12 +73,12 @@ class App {
  public:
   explicit App(AppOptions options) : x_(std::move(options)) {}
 
-  /// Answers a request. Never throws for what a client sends, nor for a bug below: that is a 500
-  /// with a request id, its text only in the record.
+  /// Answers a request. Never throws, neither for a client's input nor for a bug below: that
+  /// becomes a 500 with a request id, and only the record has its text.
   [[nodiscard]] Response handle(const Request& request) const;
 
-  /// What can be told from the request line and the headers alone, so that a body need not be read
-  /// to be refused.
+  /// Returns a refusal if the request line and the headers are enough to refuse the request, so
+  /// that its body need not be read.
   [[nodiscard]] std::optional<Refusal> screen(const Request& head) const;
 
   /// Largest body taken by the target's path, in bytes.
@@ -91,8 +93,8 @@ class App {
   /// Status and headers of a batch's answer; another status than 200: `handle` refuses it.
   [[nodiscard]] Response batch_head(const Request& request) const;
 
-  /// Answers one line of a batch, logged and counted like a request by itself: X-Request-Id is the
-  /// batch's with the line's number, Job-Id the line's id where it can be one. The headers are the
+  /// Answers one line of a batch and logs and counts it like a single request: X-Request-Id is the
+  /// batch's with the line's number, Job-Id the line's id if it is valid. The headers are the
   /// batch's.
   [[nodiscard]] BatchReply line(const Request& request) const;
 
@@ -102,13 +104,13 @@ class App {
   /// An upper bound of the memory that the job takes, its answer's too, in bytes.
   [[nodiscard]] static std::size_t memory(const Request& request);
 
-  /// The largest body at the target's path whose job has room in the memory.
+  /// Returns the largest body for the target's path whose job fits in the memory.
   [[nodiscard]] std::size_t room(std::string_view target) const;
 
-  /// Whose the request is: the owner of its key, else its address.
+  /// Returns the client of the request: the owner of its key, else its address.
   [[nodiscard]] std::string client(const Request& request) const;
 
-  /// The endpoint, "batches" for a batch and its lines, "catalogue" for what is not computed.
+  /// Returns the endpoint, "batches" for a batch and its lines, "catalogue" for other paths.
   [[nodiscard]] static std::string_view kind(const Request& request);
 
   /// Is it the address of a trusted proxy?

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kPrefix = std::string_view("/v1/").size();
 
-/// What every line's request takes from the batch's: whose it is and how long it may take. Types
-/// and names of the batch itself are not the line's.
+/// Returns the headers that every line's request inherits from the batch: identity and time limit.
+/// Media types and names of the batch do not apply to lines.
 Headers line_headers(const Headers& of_batch, std::string request_id) {
   Headers out;
   for (const auto* name : {"Authorization", "X-Api-Key", "X-Forwarded-For", "traceparent"})

@@ -27,7 +27,7 @@ CLI::Option* option(CLI::App& app, const std::string& name, T& value, const std:
     c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   }
   auto* const added = app.add_option("--" + name, value, help)->envname(variable);
-  if constexpr (std::is_same_v<T, std::vector<std::string>>) return added;  // none to show
+  if constexpr (std::is_same_v<T, std::vector<std::string>>) return added;  // no default to show
   return added->capture_default_str();
 }
 
@@ -121,8 +121,8 @@ std::string host_name() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
-/// The number of a line of the file that sets a value to no name: the parser passes over it. 0:
-/// none.
+/// Returns the number of a line of the file that sets a value without a name, because the parser
+/// ignores it; 0 if no such line exists.
 int nameless_line(const std::string& file) {
   std::ifstream in(file);
   int number = 0;
@@ -134,7 +134,7 @@ int nameless_line(const std::string& file) {
   return 0;
 }
 
-/// The commands beside serving, each with its options.
+/// Adds the commands other than serving, each with its options.
 std::vector<std::pair<Command::Kind, CLI::App*>> add_commands(CLI::App& app, Command& command) {
   auto* health = app.add_subcommand("health", "ask the running service whether it is ready");
   auto* run = app.add_subcommand("run", "answer a file without a server: the same bytes");
@@ -168,14 +168,14 @@ std::vector<std::pair<Command::Kind, CLI::App*>> add_commands(CLI::App& app, Com
                                                                 {Command::Kind::new_key, new_key}};
   for (const auto& [kind, sub] : all) {
     sub->configurable(false);
-    sub->fallthrough();  // an option of the service may stand behind its name too
+    sub->fallthrough();  // an option of the service may also follow the command's name
     for (auto* its : sub->get_options()) its->configurable(false);
   }
   app.require_subcommand(0, 1);
   return all;
 }
 
-/// What no single option can tell.
+/// Returns an error text if options contradict each other.
 std::string contradiction(const Config& c) {
   if (c.port != 0 && c.port == c.admin_port) return "--port and --admin-port must differ";
   for (const auto& network : c.trusted_proxies) {

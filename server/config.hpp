@@ -15,10 +15,10 @@ struct Config {
   int port = 8080;         // 0: any free one, named in the ready line
   std::string admin_host;  // empty: as host
   int admin_port = 9090;
-  std::string machines;  // folder of machines of one's own; empty: none
+  std::string machines;  // folder of the user's machines; empty: not used
   std::string posts;     // the same of posts
   std::string replica;   // empty: the host's name
-  std::string keys;      // file of API keys; empty: none are asked for
+  std::string keys;      // file of API keys; empty: no keys required
   bool open = false;     // serve beyond this machine without keys
   std::vector<std::string> cors_origins;
   std::vector<std::string> trusted_proxies;
@@ -27,8 +27,9 @@ struct Config {
   int connections_per_client = 0;  // 0: half of them
   int slots = 0;                   // 0: as many as there are CPUs for this process
   std::size_t queue = 64;
-  std::size_t memory_bytes = 0;  // for bodies, jobs and answers; 0: a part of what there is
-  double budget_s = 0.0;         // CPU of any job; 0: what its endpoint has by default
+  std::size_t memory_bytes = 0;  // for bodies, jobs and answers; 0: a fraction of the available
+                                 // memory
+  double budget_s = 0.0;         // CPU of any job; 0: the endpoint's default
   std::size_t max_body_bytes = 8u << 20;
   std::size_t max_target_bytes = 8192;
   std::size_t max_head_bytes = 16384;
@@ -38,13 +39,13 @@ struct Config {
   double write_s = 10.0;
   double drain_delay_s = 0.0;      // between "not ready" and the end of accepting
   double drain_s = 8.0;            // for accepted work, after that
-  std::string log_level = "info";  // of jobs: the least that is written
+  std::string log_level = "info";  // minimum level of the jobs' lines
   std::size_t log_queue = 4096;
-  std::string log_directory;  // one file per job below it; empty: none
+  std::string log_directory;  // folder for one file per job; empty: not used
   DayBounds log_day = {};     // of each day's folder there
 };
 
-/// What the command line asks for.
+/// The command that the command line selects.
 struct Command {
   enum class Kind { serve, health, run, selftest, new_key };
   Kind kind = Kind::serve;
@@ -64,8 +65,8 @@ struct Exit {
   std::string err;
 };
 
-/// Reads command line, TOML file and TUBECUT_* environment; where several set the same, the first
-/// of these three counts.
+/// Reads command line, TOML file and TUBECUT_* environment. If several set the same option, the
+/// first of these three takes precedence.
 [[nodiscard]] tl::expected<Command, Exit> read_command(int argc, const char* const* argv);
 
 }  // namespace tubecut::server

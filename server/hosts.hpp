@@ -7,14 +7,14 @@
 
 namespace tubecut::server {
 
-/// The names a port answers to beside those of its own machine; none: to any.
+/// Names that a port accepts in addition to those of its own machine; nullopt: any name.
 using Hosts = std::optional<std::vector<std::string>>;
 
-/// What is told to whom names another.
+/// Answer to a request that names another host.
 inline constexpr std::string_view kForeignHost = "Host names another service; --hosts adds names.";
 
-/// Whether a request may name that `Host`: a page under a foreign name, which its owner made to
-/// lead here, may not. Without one no browser asks.
+/// Returns whether a request may name that `Host`. A page whose owner made a foreign name resolve
+/// to this machine must not. Browsers always send a Host.
 [[nodiscard]] bool called_by(std::string_view host, const Hosts& hosts);
 
 }  // namespace tubecut::server

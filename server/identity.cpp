@@ -29,7 +29,7 @@ bool sound_traceparent(std::string_view text) {
   return hex(trace) && hex(parent) && hex(flags) && !all_zero(trace) && !all_zero(parent);
 }
 
-/// The one sound value sent under `name`, or nothing.
+/// Returns the only valid value sent under `name`, or an empty text.
 std::string sole_id(const Headers& headers, std::string_view name) {
   const auto values = header_values(headers, name);
   return values.size() == 1 && sound_id(values.front()) ? std::string(values.front())

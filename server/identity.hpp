@@ -11,7 +11,7 @@ namespace tubecut::server {
 /// spaces at its ends.
 [[nodiscard]] bool sound_id(std::string_view id);
 
-/// The names a request goes by. Nothing is stored under them: they are for answers and logs.
+/// The names of a request. They are only for answers and logs; nothing is stored under them.
 struct Identity {
   std::string request_id;       // the client's X-Request-Id when it is sound, else 128 random bits
   std::string job_id;           // Job-Id, else Idempotency-Key, else empty
@@ -24,12 +24,12 @@ struct Identity {
 inline constexpr std::size_t kLongestId = 128;
 
 /// Reads the names from the headers. An id is 1 to 128 printable ASCII characters without spaces at
-/// its ends. An unsound name is left out.
+/// its ends. If a name is not valid, it is omitted.
 [[nodiscard]] Identity identify(const Headers& headers);
 
-/// What is wrong with Job-Id or Idempotency-Key, if anything. These are refused rather than left
-/// out: a job under another name than its sender's could not be found again. (An unsound
-/// traceparent or X-Request-Id harms nobody.)
+/// Returns the fault of Job-Id or Idempotency-Key, if there is one. These are refused rather than
+/// omitted, because a job under another name could not be found again. (A malformed traceparent or
+/// X-Request-Id does no harm.)
 [[nodiscard]] std::optional<Refusal> job_name_fault(const Headers& headers);
 
 /// 128 random bits from the kernel as 32 hex digits.

@@ -54,7 +54,7 @@ int run_one(std::istream& in, const Command& command) {
 /// would have slots.
 class Lines {
  public:
-  /// `size`: of the file in bytes; 0 where it cannot be told.
+  /// `size`: of the file in bytes; 0 if unknown.
   Lines(std::istream& in, std::uintmax_t size) : in_(in), size_(size), app_({}), id_(random_id()) {}
 
   BatchCount run() {

@@ -13,13 +13,13 @@ struct KnownAnswer {
   std::string_view result_sha256;
 };
 
-/// Quick ones of every endpoint but mill-paths, whose least job takes longer than a whole start
-/// may: they run before each start. `numerics` is raised when one changes. In a source of its own,
+/// Quick jobs of every endpoint except mill-paths, whose shortest job takes longer than a whole
+/// start may: they run before each start. If one changes, raise `numerics`. In a separate source,
 /// so that a test can link others.
 [[nodiscard]] std::span<const KnownAnswer> known_answers();
 
 /// Answers the known jobs and compares each result's hash with the known one. Returns the first
-/// difference as text, or nothing. A replica that differs is never ready.
+/// difference as text, or an empty text. A replica that differs never becomes ready.
 [[nodiscard]] std::string selftest_fault(std::span<const KnownAnswer> known = known_answers());
 
 /// Prints one line per known job; with `all` one `{"endpoint", "name", "hash"},` per example, from

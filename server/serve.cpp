@@ -38,7 +38,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kOwnDescriptors = 64;  // ports, logs, job files, and what the kernel has accepted
+constexpr int kOwnDescriptors = 64;  // ports, logs, job files, and connections that the kernel has
+                                     // accepted
 constexpr auto kLogPatience = 1s;    // for a line that should be read before going on
 
 std::chrono::milliseconds ms(double seconds) {
@@ -60,8 +61,9 @@ TransportOptions service_port(const Config& c, const Capacity& can) {
           .write = ms(c.write_s)};
 }
 
-/// Jobs are logged; of the rest (catalogues, probing strangers) only what failed by our fault, so
-/// that they cannot push jobs' lines out of the queue. The metrics count everything.
+/// Returns whether the request is logged: all jobs, but other requests (catalogues, probing
+/// strangers) only if the service failed, so that they cannot push jobs' lines out of the queue.
+/// The metrics count everything.
 bool logged(const JobRecord& job) { return job.method == "POST" || job.status >= 500; }
 
 Service service_of(const App& app) {
@@ -83,9 +85,9 @@ Service service_of(const App& app) {
           .budget = [&app](const Request& request) { return app.budget(request); }};
 }
 
-/// Connections that there are descriptors for: beyond them the one idle for longest is closed,
-/// while without a descriptor a new one would only wait. The soft limit is often 1024 where the
-/// hard one is not.
+/// Returns the number of connections for which there are descriptors. Beyond it, the connection
+/// that is idle for longest is closed; without this limit a new one would only wait. The soft limit
+/// is often 1024 although the hard one is higher.
 int connections_of(int wanted) {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
@@ -109,8 +111,7 @@ Capacity capacity_of(const Config& c) {
   return can;
 }
 
-/// A port being served by a thread of its own. When serving breaks down the whole service is asked
-/// to stop.
+/// A port served by its own thread. If serving fails, the whole service stops.
 template <class Port>
 std::future<bool> start(Port& port) {
   return std::async(std::launch::async, [&port] {
@@ -136,7 +137,7 @@ int fail(std::string_view why, int code = 1) {
   return code;
 }
 
-/// Lets accepted work end, then cancels what is left; a job that does not even obey that ends the
+/// Lets accepted work end, then cancels the rest. If a job does not obey even that, ends the
 /// process.
 void stop_work(Transport& work, const std::future<bool>& served, std::stop_source& jobs,
                const Config& c) {
@@ -148,8 +149,8 @@ void stop_work(Transport& work, const std::future<bool>& served, std::stop_sourc
   if (!finished(served, 1s)) std::_Exit(fail("a job did not stop within its time"));
 }
 
-/// The names of `address`, to listen on. Only a port that asks no key and is reached from this
-/// machine alone has something to fear from a page under a foreign name.
+/// Returns the names of `address`, to listen on. Only a port that requires no key and is reachable
+/// only from this machine is at risk from a page under a foreign name.
 Hosts hosts_of(const Config& c, const std::string& address, bool guarded) {
   const bool any = std::ranges::find(c.hosts, "*") != c.hosts.end();
   if (any || !guarded) return std::nullopt;
@@ -158,13 +159,13 @@ Hosts hosts_of(const Config& c, const std::string& address, bool guarded) {
   return out;
 }
 
-/// The service's port checks names also where it is told some.
+/// If names are given, the service's port checks them too.
 Hosts service_hosts(const Config& c) {
   const bool guarded = c.keys.empty() && !c.open && is_loopback(c.host);
   return hosts_of(c, c.host, guarded || !c.hosts.empty());
 }
 
-/// What both ports need, for the length of one run.
+/// The objects that both ports need during one run.
 struct Run {
   Run(const Config& c, std::size_t memory)
       : access(std::make_shared<Access>(c.keys)), log(c.log_queue, c.log_level) {
@@ -196,8 +197,8 @@ struct Run {
       files->write(utc(now).substr(0, 10), job.identity, job.facts.id, job_events(job, now));
     }
   }
-  /// A key's job that was accepted, so understood, whatever came of it then; a batch that was
-  /// answered; what failed. What is refused before leaves nothing on the disk.
+  /// Returns whether a job gets a file: an accepted job of a key with any outcome, an answered
+  /// batch, and failures. Refused requests leave nothing on the disk.
   [[nodiscard]] static bool kept(const JobRecord& job) {
     const bool accepted = !job.facts.input_sha256.empty() || job.status == 200 || job.status >= 500;
     return accepted && !job.facts.id.empty() && !job.identity.empty();
@@ -258,7 +259,7 @@ std::optional<std::pair<std::string_view, std::string>> reached(const Config& c)
   return std::nullopt;
 }
 
-/// What is wrong with the folder to write jobs' files into, or nothing.
+/// Returns an error text if jobs' files cannot be written into the folder.
 std::string folder_fault(const Config& c) {
   const auto& folder = c.log_directory;
   if (folder.empty()) return {};
@@ -272,7 +273,7 @@ std::string folder_fault(const Config& c) {
   return {};
 }
 
-/// Whoever reaches the port may use it: that has to be said, or keys given.
+/// Everyone who reaches the port may use it, so the operator must confirm this or give keys.
 int refuse_open(std::string_view option, const std::string& host) {
   fmt::print(stderr,
              "tubecut-server: {1} is reached from other machines and no keys are set. Either\n"
@@ -286,16 +287,17 @@ int refuse_open(std::string_view option, const std::string& host) {
   return kRefusedToStart;
 }
 
-/// What nobody catches ends the process. Where the system had no thread to give, that is no fault
-/// of the program: it is said, and no core is left. An exception on its way (a library ends the
-/// process when it cannot start all of its threads) is of that kind too: no other leaves the start.
+/// An uncaught exception ends the process. If the system had no thread to give, that is not a fault
+/// of the program, so this reports it and leaves no core file. An exception in flight (a library
+/// ends the process when it cannot start all of its threads) is of that kind too, because no other
+/// leaves the start.
 [[noreturn]] void end_uncaught() {
   bool of_system = std::uncaught_exceptions() > 0;
   try {
     if (const auto failure = std::current_exception()) std::rethrow_exception(failure);
   } catch (const std::system_error&) {
     of_system = true;
-  } catch (...) {  // the core tells
+  } catch (...) {  // the core file has the reason
   }
   if (!of_system) std::abort();
   std::_Exit(
@@ -306,8 +308,8 @@ int refuse_open(std::string_view option, const std::string& host) {
 
 }  // namespace
 
-// Threads are started here alone. One that cannot be ends the process where it stands (noexcept):
-// to take down the others in order would wait for ports that are being served.
+// The only function that starts threads. If one cannot start, it ends the process (noexcept),
+// because stopping the others in order would wait for ports that are being served.
 int serve(const Config& c) noexcept {
   std::set_terminate(end_uncaught);
   const Signals signals;
@@ -326,7 +328,7 @@ int serve(const Config& c) noexcept {
 
   auto probes_served = start(*probes);
   await_serving(*probes, probes_served);
-  if (finished(probes_served, 0s)) probes_served.get();  // throws what it threw
+  if (finished(probes_served, 0s)) probes_served.get();  // rethrows its exception
   if (const auto fault = selftest_fault(); !fault.empty()) {
     probes->stop();
     return fail(fault);

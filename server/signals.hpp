@@ -4,8 +4,8 @@
 
 namespace tubecut::server {
 
-/// Ends of the service asked for from outside. Make it first in main: threads inherit what it
-/// blocks.
+/// Stop and reload requests from outside. Make it first in main, because threads inherit the signal
+/// mask.
 class Signals {
  public:
   Signals();

@@ -3,7 +3,7 @@
 namespace tubecut::server {
 
 int status_of(ErrorKind kind) {
-  switch (kind) {  // no default: the compiler asks for a row when a kind is added
+  switch (kind) {  // no default, so that the compiler requires a row for each new kind
     case ErrorKind::unreadable:
       return 400;
     case ErrorKind::unauthorized:

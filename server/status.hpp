@@ -4,7 +4,7 @@
 
 namespace tubecut::server {
 
-/// The HTTP status of a kind of error: the only place where the two meet.
+/// Returns the HTTP status of a kind of error: the only place that connects the two.
 [[nodiscard]] int status_of(ErrorKind kind);
 
 /// Whether the same request may succeed later without a change: then the answer carries

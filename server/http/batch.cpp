@@ -20,8 +20,8 @@ constexpr double kTurnS = 0.004;
 constexpr std::size_t kAhead = 8;
 constexpr auto kAskAgain = 20ms;  // a full queue, memory in use, or the key's rate
 constexpr auto kLook = 50ms;      // whether the client is still there
-/// Lines that are no jobs, after which no further line is looked at: each costs an answer and a
-/// line of log, many times its own bytes.
+/// Number of malformed lines after which the batch ends, because each costs an answer and a log
+/// line, many times its own bytes.
 constexpr std::size_t kMalformed = 100;
 constexpr std::size_t kReadAtOnce = 64u << 10;
 constexpr std::size_t kScanAtOnce = 256u << 10;  // bytes looked through in one turn
@@ -91,7 +91,7 @@ Task<void> Batch::stream(Response head, std::string lines) {
   held_.resize(lines_.size());
   count_.bytes_in = lines_.size();
   head_ = std::move(request);
-  auto& common = head_.headers;  // the lines go by the name the client is told
+  auto& common = head_.headers;  // the lines use the name that is sent to the client
   const auto is_id = [](const auto& field) {
     return equal_ignoring_case(field.first, "X-Request-Id");
   };
@@ -114,8 +114,8 @@ Task<void> Batch::stream(Response head, std::string lines) {
   co_await on_.send(std::move(rest));  // gcc 12 destroys a temporary here twice
 }
 
-/// The next line that is not blank, empty at the end. Nothing when there is none in as many bytes
-/// as may be looked through at once: blank lines cost what their bytes cost.
+/// Returns the next line that is not blank; empty at the end. Returns nothing if the bytes that may
+/// be scanned at a time contain no such line, because blank lines cost time too.
 std::optional<std::string_view> Batch::next_line() {
   const auto all = std::string_view(lines_);
   const auto near = all.substr(0, std::min(all.size(), at_ + kScanAtOnce));
@@ -180,7 +180,8 @@ void Batch::take_finished() {
 /// One more than there are slots, so that no slot waits.
 std::size_t Batch::worked_on() const { return static_cast<std::size_t>(port_.slots.count()) + 1; }
 
-/// Lines begun beyond those, where they are so short that slots would wait for the port.
+/// Returns the number of additional lines to start, if they are so short that slots would wait for
+/// the port.
 std::size_t Batch::ahead() const {
   return pace_s_ > 0.0 ? static_cast<std::size_t>(std::min(1.0 * kAhead, kTurnS / pace_s_)) : 0;
 }
@@ -250,8 +251,8 @@ bool Batch::begin_line(std::string_view line) {
   return true;
 }
 
-/// Whether the memory for the next line is there. Slow takers give way when the wait for it begins
-/// and when it is over: to ask all connections each time would hold up the port.
+/// Returns whether the memory for the next line is free. Evicts slow takers only when the wait
+/// begins and when it ends, because a scan of all connections each time would block the port.
 bool Batch::has_memory_in_time(std::size_t bytes) {
   if (port_.memory.has(bytes)) return true;
   const bool first = !waits_since_;
@@ -283,8 +284,8 @@ void Batch::begin_time(Job& job, bool ahead) {
     job.due = Clock::now() + job.budget.cpu;  // the batch is answered anyway
 }
 
-/// Lines that have waited too long for a slot are refused, those that run held to their budget. One
-/// that lost its place in the queue asks for another until then.
+/// Refuses lines that have waited too long for a slot, and limits running ones to their budget. A
+/// line that lost its place in the queue may queue again until then.
 void Batch::refuse_late() {
   const auto running = on_.jobs_;
   std::size_t place = 0;
@@ -321,7 +322,8 @@ void Batch::answer_line(std::string_view text, bool refused) {
   count_.bytes_out += text.size();
 }
 
-/// What is held for the client has to be taken within the time for an answer, not a byte of it.
+/// The client must take the pending output within the time for an answer; the limit is not per
+/// byte.
 void Batch::send() {
   const auto size = on_.out_.size();
   if (!on_.send_some()) {

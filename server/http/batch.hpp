@@ -11,7 +11,7 @@
 namespace tubecut::server {
 
 /// A batch on a connection: its lines become jobs like others, a few at a time, and are answered in
-/// chunks as they are done. Its lines are a request's body, or what a job made of its request.
+/// chunks as they finish. The lines come from a request's body or from a job's output.
 class Batch {
  public:
   Batch(Session& session, std::shared_ptr<Job> whole);
@@ -46,7 +46,7 @@ class Batch {
   Session& on_;
   Port& port_;
   std::shared_ptr<Job> whole_;
-  Request head_;               // what every line's request has in common
+  Request head_;               // the head common to every line's request
   std::string lines_;          // the body
   MemoryShare held_;           // for it
   std::size_t at_ = 0;         // of the next line
@@ -61,7 +61,8 @@ class Batch {
   std::size_t owed_ = 0;  // bytes the client has to take until `stalled_`
   std::optional<Clock::time_point> waits_since_;          // for memory
   Clock::time_point stalled_ = Clock::time_point::max();  // when a client too slow is cut off
-  Clock::time_point again_ = Clock::time_point::max();    // when a full queue is asked again
+  Clock::time_point again_ = Clock::time_point::max();    // time of the next attempt at a full
+                                                          // queue
 };
 
 }  // namespace tubecut::server

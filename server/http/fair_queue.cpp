@@ -9,8 +9,8 @@
 namespace tubecut::server {
 namespace {
 
-/// The share that has used least of those that `may`, of equals the one whose job came first;
-/// nullptr without one.
+/// Returns the share with the least use of those that satisfy `may`; of equal ones, the one whose
+/// job came first; nullptr if no share does.
 template <class Shares, class May, class Came>
 auto* least_used(Shares& shares, May may, Came came) {
   decltype(&shares.begin()->second) least = nullptr;
@@ -62,7 +62,8 @@ std::shared_ptr<Job> FairQueue::pop_quick(double since, bool trials) {
   });
 }
 
-/// Whose turn it is, of those whose first job `may`: client and flow; nullptr without one.
+/// Returns the client and flow whose turn is next, of those whose first job satisfies `may`;
+/// nullptr if no job does.
 template <class Clients, class May>
 auto FairQueue::turn_of(Clients& clients, May may) {
   const auto flow_may = [&may](const Flow& flow) {

@@ -11,9 +11,9 @@ namespace tubecut::server {
 
 struct Job;
 
-/// What a job's place in the queue goes by.
+/// The values that determine a job's place in the queue.
 struct Claim {
-  std::string client = {};     // whose it is: a key's owner, or an address
+  std::string client = {};     // client: a key's owner, or an address
   const void* flow = nullptr;  // of the client's: the connection it came by
   double expected_s = 0.0;     // in a slot
   bool quick = false;          // may take the lane that long jobs cannot fill
@@ -22,24 +22,25 @@ struct Claim {
   double since = 0.0;     // when it began to wait, in seconds
 };
 
-/// Jobs that wait for a slot. Clients take turns by the time their jobs have had, and so do the
-/// flows of a client: whoever asks for much waits for it, and for nobody else's. One that comes
-/// back from having nothing here begins where the others are (start-time fair queueing, Goyal et
+/// Jobs that wait for a slot. Clients take turns by the time that their jobs have used, and so do
+/// the flows of a client: a client with much work waits only for its own. If a client returns after
+/// having no jobs here, it begins at the level of the others (start-time fair queueing, Goyal et
 /// al. 1996).
 class FairQueue {
  public:
   void push(const std::shared_ptr<Job>& job);
 
-  /// The next to run; nothing when none waits.
+  /// Returns the next job to run; nothing if the queue is empty.
   [[nodiscard]] std::shared_ptr<Job> pop();
 
-  /// What the next to run claims; nullptr when none waits.
+  /// Returns the claim of the next job to run; nullptr if the queue is empty.
   [[nodiscard]] const Claim* next() const;
 
-  /// The next of the quick that have waited since then; `trials`: or of those believed to be.
+  /// Returns the next quick job that has waited since then; with `trials` also a job that is only
+  /// expected to be quick.
   [[nodiscard]] std::shared_ptr<Job> pop_quick(double since, bool trials = true);
 
-  /// `took` seconds were had by a job popped, and no more will be.
+  /// Call when a popped job ends. `took` is its run time in seconds.
   void done(const Claim& claim, double took);
 
   /// The client's jobs of that kind are not quick after all.
@@ -48,8 +49,8 @@ class FairQueue {
   /// Takes a waiting job back; false when it does not wait.
   [[nodiscard]] bool remove(const std::shared_ptr<Job>& job);
 
-  /// The last job of the client with most waiting, taken out for one of a client with fewer;
-  /// nothing when that would only turn them round.
+  /// Removes and returns the last job of the client with the most waiting jobs, in favour of a
+  /// client with fewer; nothing if that would only swap the two.
   [[nodiscard]] std::shared_ptr<Job> give_way(const Claim& newcomer);
 
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -59,7 +60,7 @@ class FairQueue {
 
  private:
   struct Share {
-    double used = 0.0;  // seconds, from where it began
+    double used = 0.0;  // seconds, from its start level
     double waiting = 0.0;
     std::size_t running = 0;
   };
@@ -82,7 +83,7 @@ class FairQueue {
   void forget_idle(const std::string& client, const void* flow);
 
   std::map<std::string, Client> clients_;
-  double floor_ = 0.0;  // what one that comes now has used
+  double floor_ = 0.0;  // start level of a client that comes now
   std::size_t size_ = 0;
   std::size_t came_ = 0;
 };

@@ -15,7 +15,8 @@ bool whole_number(std::string_view text) {
          std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// host [":" port], without what could be taken for another authority, a list or a path.
+/// Returns whether the text is host [":" port], without characters that another program could read
+/// as an authority, a list or a path.
 bool sound_host(std::string_view host) {
   return std::ranges::none_of(host, [](char c) {
     return c <= ' ' || c == 0x7f ||

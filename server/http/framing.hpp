@@ -9,13 +9,14 @@
 
 namespace tubecut::server {
 
-/// What makes the length of a request ambiguous (RFC 9112, 6.3) or its host doubtful, as text for
-/// the client; empty when nothing does. Where two programs may read a length differently, a second
-/// request can hide in the first. `minor` is the version: HTTP/1.minor.
+/// Returns the reason why the length of a request is ambiguous (RFC 9112, 6.3) or its host
+/// doubtful, as text for the client; empty if it is sound. If two programs read a length
+/// differently, a second request can hide in the first. `minor` is the version: HTTP/1.minor.
 [[nodiscard]] std::string_view framing_fault(const Headers& headers, int minor);
 
-/// What is wrong with a head's bytes before any parser sees them: folded lines, bare CR or LF, NUL
-/// and other controls. Empty when nothing is. Judges the bytes of [from, to) by their neighbours.
+/// Returns the fault of a head's bytes before a parser sees them: folded lines, bare CR or LF, NUL
+/// and other controls; empty if there is no fault. Checks the bytes of [from, to) together with
+/// their neighbours.
 [[nodiscard]] std::string_view byte_fault(std::string_view head, std::size_t from, std::size_t to);
 
 /// Its Content-Length; 0 without one.

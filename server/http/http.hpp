@@ -45,15 +45,16 @@ struct Request {
   std::stop_token stop = {};            // ends the job: over its budget, or nobody waits for it
   Times times = {};
   bool reports_sending = false;  // the transport will call `Response::sent`
-  std::size_t line = 0;          // of a batch, from 1; 0: a request by itself
+  std::size_t line = 0;          // of a batch, from 1; 0: a single request
   Turns turns = in_order;        // by whom pieces of the job are done
   /// CPU that all threads have had for it since a slot began it; empty: no slot did.
   std::function<std::chrono::nanoseconds()> used_cpu = {};
 };
 
-/// What a job may take; 0: no end.
+/// Time limits of a job; 0: no limit.
 struct Budget {
-  std::chrono::milliseconds cpu{0};   // of its threads: what others on the machine do takes nothing
+  std::chrono::milliseconds cpu{0};   // CPU of its threads: the load of other processes does not
+                                      // count
   std::chrono::milliseconds wall{0};  // from its last byte in to its answer
 };
 
@@ -61,10 +62,10 @@ struct Budget {
 struct BatchReply {
   std::string text = {};  // with its line feed
   bool refused = false;
-  bool malformed = false;  // it is no job, for the form of the line itself
+  bool malformed = false;  // the line itself is malformed, so it is not a job
 };
 
-/// What became of a batch's lines.
+/// Outcome counts of a batch's lines.
 struct BatchCount {
   std::size_t items = 0;
   std::size_t answered = 0;
@@ -79,7 +80,7 @@ struct Response {
   std::string content_type = {};
   Headers headers = {};
   std::string body = {};
-  /// Instead of it: bytes that stand as long as the program does, and are not copied.
+  /// Used instead of `body`: bytes that live as long as the program and are not copied.
   std::string_view fixed = {};
   /// Requests as a batch has them, one a line: their answers follow the body, in chunks.
   std::string lines = {};
@@ -91,7 +92,7 @@ struct Response {
 [[nodiscard]] std::vector<std::string_view> header_values(const Headers& headers,
                                                           std::string_view name);
 
-/// The first value sent under `name`, or nothing.
+/// Returns the first value sent under `name`, or an empty text.
 [[nodiscard]] std::string_view header(const Headers& headers, std::string_view name);
 
 [[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b);

@@ -1,4 +1,4 @@
-// The service's port: Boost.Asio accepts, each connection lives by itself (session.hpp).
+// The service's port: Boost.Asio accepts, and each connection runs on its own (session.hpp).
 
 #include <fmt/format.h>
 
@@ -19,17 +19,17 @@ using Acceptor = asio::basic_socket_acceptor<Tcp, Executor>;
 
 constexpr int kBacklog = 1024;
 constexpr int kAcceptsPerTurn = 64;  // then the connections' turn
-constexpr auto kOutOfMeans = 10ms;   // descriptors, memory: asked again
+constexpr auto kOutOfMeans = 10ms;   // if descriptors or memory are short, try again after
 constexpr auto kListeningEnds = 5s;  // a loop that does not even do that
 
-/// Takes connections until it is told to stop, and then those that the kernel had taken.
+/// Accepts connections until it is stopped, and then those that the kernel had accepted.
 class Listener final : public Strand {
  public:
   Listener(Port& port, Acceptor& acceptor) : Strand(port.loop), port_(port), acceptor_(acceptor) {}
   ~Listener() override { drop(); }
 
   void start() { begin(live()); }
-  /// What the kernel has taken for us is work too: closing the port would reset it.
+  /// Connections that the kernel has accepted are work too: closing the port would reset them.
   void stop() {
     while (accept_some()) {
     }
@@ -53,7 +53,7 @@ class Listener final : public Strand {
     }
   }
 
-  /// Accepts, or asks to be woken when there is something to accept; true when to be called again.
+  /// Accepts connections, or waits for the next one. Returns true if it must be called again.
   bool look() {
     try {
       if (accept_some()) return true;
@@ -100,7 +100,7 @@ class Listener final : public Strand {
     return true;
   }
 
-  /// One that there is no memory for is closed.
+  /// If there is no memory for the connection, closes it.
   void open(Socket socket) {
     try {
       port_.open(std::move(socket));
@@ -127,7 +127,7 @@ struct Transport::Impl {
   Impl(const TransportOptions& options, Service service)
       : port(options, std::move(service)), acceptor(port.loop.io()) {}
 
-  /// What is wrong, or nothing.
+  /// Returns an error text, or an empty text.
   std::string bind() {
     const auto& options = port.options;
     boost::system::error_code error;

@@ -16,7 +16,7 @@ void Loop::run(const std::function<bool()>& over, const std::function<void()>& e
       } else {
         io_.run_one();
       }
-    } catch (const std::exception&) {  // out of memory: what was to be woken has its timer
+    } catch (const std::exception&) {  // out of memory: the strand wakes by its timer
     }
     each();
     resume_awake();

@@ -18,8 +18,8 @@ using Socket = boost::asio::basic_stream_socket<Tcp, Executor>;
 
 class Strand;
 
-/// A port's one thread: Asio's events wake strands, and the loop resumes those awake, one after
-/// another. A handler only wakes, so nothing of ours runs inside another's turn.
+/// A port's only thread: Asio's events wake strands, and the loop resumes those that are awake, one
+/// after another. Handlers only wake, so no code of ours runs inside another strand's turn.
 class Loop {
  public:
   [[nodiscard]] boost::asio::io_context& io() { return io_; }
@@ -39,8 +39,8 @@ class Loop {
   Strand* last_awake_ = nullptr;
 };
 
-/// One coroutine of the loop, with what it calls, and a timer. Kept alive by its owner and by the
-/// events it waits for.
+/// One coroutine of the loop, with the coroutines that it calls, and a timer. Its owner and the
+/// events for which it waits keep it alive.
 class Strand : public std::enable_shared_from_this<Strand> {
  public:
   explicit Strand(Loop& loop) : loop_(loop), timer_(loop.io()) {}
@@ -55,8 +55,8 @@ class Strand : public std::enable_shared_from_this<Strand> {
  protected:
   void begin(Task<void> life);
 
-  /// Until woken, at the latest at `deadline`. It may be woken for no reason: what is waited for
-  /// has to be looked at again.
+  /// Suspends until woken, at the latest at `deadline`. Wakes may be spurious, so check the
+  /// condition again.
   [[nodiscard]] Chain::Pause pause(Clock::time_point deadline);
   /// Lets the others have their turn.
   [[nodiscard]] Chain::Pause yield() {
@@ -64,7 +64,7 @@ class Strand : public std::enable_shared_from_this<Strand> {
     return {};
   }
 
-  /// Ends it where it stands.
+  /// Ends the coroutine at its current suspension point.
   void drop() { chain_.drop(); }
   /// It has ended: for its owner.
   virtual void on_end() {}

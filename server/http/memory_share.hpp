@@ -7,14 +7,13 @@
 
 namespace tubecut::server {
 
-/// Frees what a text holds. `text = {}` assigns it an empty list, for which it keeps its bytes.
+/// Frees a text's memory. `text = {}` would assign an empty list and keep the bytes.
 inline void give_back(std::string& text) { std::string().swap(text); }
 
-/// A bound on bytes, and how many are in use: counted by the shares that hold them. From any
-/// thread.
+/// A bound on bytes, and the number in use, counted by the shares that hold them. From any thread.
 class MemoryBound {
  public:
-  /// 0: no bound. What is in use here is in use of `whole` too.
+  /// 0: no bound. Bytes in use here count for `whole` too.
   explicit MemoryBound(std::size_t most, MemoryBound* whole = nullptr)
       : most_(most), whole_(whole) {}
   MemoryBound(const MemoryBound&) = delete;
@@ -22,12 +21,13 @@ class MemoryBound {
 
   [[nodiscard]] std::size_t used() const { return used_; }
   [[nodiscard]] std::size_t most() const { return most_; }
-  /// Whether there are so many bytes more.
+  /// Returns whether this number of bytes is free.
   [[nodiscard]] bool has(std::size_t bytes) const { return most_ == 0 || used_ + bytes <= most_; }
 
  private:
   friend class MemoryShare;
-  /// So many bytes more, if they are there: also when others ask at the same time.
+  /// Takes this number of bytes if they are free, also when other threads take some at the same
+  /// time.
   [[nodiscard]] bool take(std::size_t bytes) {
     change(bytes);
     if (has(0)) return true;
@@ -63,7 +63,7 @@ class MemoryShare {
     if (of_ != nullptr) of_->change(bytes - bytes_);
     bytes_ = bytes;
   }
-  /// So many bytes more; false, and none, where they are not there.
+  /// Takes this number of bytes more. If they are not free, returns false and takes nothing.
   [[nodiscard]] bool grow(std::size_t by) {
     if (of_ != nullptr && !of_->take(by)) return false;
     bytes_ += by;

@@ -9,8 +9,8 @@ namespace tubecut::server {
 
 class Place;
 
-/// How many connections each client has open, of as many as one may have. The loop's thread's
-/// alone.
+/// Counts the open connections of each client, up to a limit per client. Only for the loop's
+/// thread.
 class Places {
  public:
   explicit Places(std::size_t most) : most_(most) {}

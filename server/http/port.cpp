@@ -13,26 +13,27 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kReadBytes = 65536;
-/// Requests on their way hold one part of so many of the memory at most, and lines of batches
-/// another: whatever clients begin, jobs find theirs.
+/// Arriving requests hold at most one such fraction of the memory, and lines of batches another, so
+/// that jobs find memory whatever clients begin.
 constexpr std::size_t kWaiting = 2;
 constexpr auto kHeadTaken = 100ms;  // one that takes longer makes room for others
 constexpr auto kTaken = 1s;  // most answers are by then: the others give way when memory is short
 /// A job waits for a slot no longer than this part of its budget.
 constexpr int kWaitShare = 2;
-/// Between two looks at a job's CPU: it may be a hair below its budget for long, without the CPU.
+/// Minimum time between two checks of a job's CPU, because a job without CPU may stay just below
+/// its budget for long.
 constexpr std::chrono::nanoseconds kLeastLook = 500us;
-/// Until what is left of a budget can be used up a job may come to hold more, and that takes time
-/// too: looked at before.
+/// Fraction of the remaining budget after which a job is checked again, because its memory may grow
+/// and freeing it takes time too.
 constexpr double kLookShare = 0.6;
 /// Part of the memory that is kept free of answers which slow clients have not taken.
 constexpr std::size_t kKeptFree = 4;
-/// What each thread has for its job, beside what is set aside for the job: the everyday ones need
-/// no more.
+/// Memory of each thread for its job, in addition to the memory reserved for the job: everyday jobs
+/// need no more.
 constexpr std::size_t kThreadBytes = 8u << 20;
 constexpr std::size_t kLeastMemory = 16u << 20;
 
-/// What is left of the bound for bodies and answers once every thread has its part; 0: no bound.
+/// Returns the bound for bodies and answers after each thread has its part; 0: no bound.
 std::size_t shared_memory(const TransportOptions& options) {
   if (options.memory == 0) return 0;
   const auto threads = kThreadBytes * Slots::threads(options.slots);
@@ -100,7 +101,7 @@ Printed Port::printed(Response response, const Request& request,
   return print(std::move(response), request.method, close ? 0s : idle);
 }
 
-/// More memory for a running job: only what others have not.
+/// Grants more memory to a running job, only from the free memory.
 JobMemory::Grant Port::grow(Job& job, std::size_t bytes) const {
   const std::lock_guard lock(job.growing);
   if (job.memory.grow(bytes)) return JobMemory::Grant::given;
@@ -108,7 +109,8 @@ JobMemory::Grant Port::grow(Job& job, std::size_t bytes) const {
   return fits ? JobMemory::Grant::in_use : JobMemory::Grant::never;
 }
 
-/// In the job's thread, whose memory takes over what others took: the pieces they made are its own.
+/// Runs in the job's thread, whose memory takes over the helpers' memory, because their results
+/// belong to the job.
 void Port::take_turns(Job& job, std::size_t count, const Turn& turn) {
   JobMemory::Taken all;
   const auto give_over = [&] {
@@ -160,8 +162,8 @@ void Port::work(Job& job) {
         given, [&](std::size_t bytes) { return grow(job, bytes); }, &job.held.own);
     answer(job);
   }
-  give_back(job.request.body);   // a client slow to take its answer holds that alone
-  job.request.turns = in_order;  // what is left of it is not this job's
+  give_back(job.request.body);   // a client that is slow to take its answer holds only the answer
+  job.request.turns = in_order;  // the remaining threads no longer work for this job
   job.request.used_cpu = nullptr;
 }
 
@@ -204,7 +206,7 @@ void Port::tell(std::function<void()> what) {
 
 void Port::run() {
   loop.run([this] { return ending_ && sessions_.empty(); }, [this] { take_messages(); });
-  slots.join();  // jobs whose clients are gone still have a line to log
+  slots.join();  // jobs whose clients are gone still write a log line
   take_messages();
 }
 
@@ -242,7 +244,7 @@ void Port::set_budget(Job& job) const {
   if (job.budget.cpu > 0ms) job.due = now + job.budget.cpu / kWaitShare;
 }
 
-/// A thread uses at most its time: until `due` nothing need be asked.
+/// A thread cannot use more CPU than elapsed time, so no check is needed until `due`.
 void Port::hold_to_budget(Job& job) const {
   const auto now = Clock::now();
   const auto left = job.budget.cpu - slots.cpu(job) - job.all_cpu.to_give_back();
@@ -258,7 +260,7 @@ void Port::hold_to_budget(Job& job) const {
   }
 }
 
-/// An address that has its share of the connections makes room among its own.
+/// If an address has its maximum of connections, it must close one of its own.
 void Port::open(Socket socket) {
   const auto peer = address_of(socket);
   const bool shared = service.is_shared && service.is_shared(peer);
@@ -325,7 +327,7 @@ void Port::bound_arrivals() {
   }
 }
 
-/// Those that hold most go first, and none in vain.
+/// Closes the largest holders first, and only if that frees enough.
 bool Port::make_memory(std::size_t bytes) {
   if (memory.has(bytes)) return true;
   const auto late = Clock::now() - kTaken;

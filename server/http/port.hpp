@@ -32,7 +32,7 @@ struct PortCounters {
       over_time{0};
 };
 
-/// What the connections of a port share. Its loop's thread's alone, but for what says otherwise.
+/// The state that the connections of a port share. Only for its loop's thread, except as noted.
 class Port {
  public:
   Port(const TransportOptions& options, Service service);
@@ -40,7 +40,7 @@ class Port {
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
 
-  /// Runs the loop until `end`, and then until nothing is left to answer.
+  /// Runs the loop until `end`, and then until all pending answers are sent.
   void run();
   /// From any thread: calls `what` in the loop's thread, soon.
   void tell(std::function<void()> what);
@@ -53,15 +53,15 @@ class Port {
   void end() { ending_ = true; }
   void cancel_jobs();
 
-  /// The largest body of such a request that the memory has room for. A batch's lines are jobs by
-  /// themselves.
+  /// Returns the largest body of such a request that fits in the memory. A batch's lines are
+  /// separate jobs.
   [[nodiscard]] std::size_t room_for_body(const Request& head) const;
   /// Memory to set aside for a job: all that it takes until it is answered, its answer too.
   [[nodiscard]] std::size_t memory_of(const Request& request) const;
   /// Of requests on their way, those that hold most make room for the others.
   void bound_arrivals();
-  /// Whether so many bytes more are there, if need be without the clients slowest to take their
-  /// answers.
+  /// Returns whether this number of bytes is free; if necessary, first closes the clients that are
+  /// slowest to take their answers.
   [[nodiscard]] bool make_memory(std::size_t bytes);
   /// Clients slowest to take their answers give way while little is free: running jobs may grow.
   void keep_memory_free();
@@ -88,11 +88,12 @@ class Port {
   MemoryBound lines;     // of it: batches' lines not yet begun
   Places places;         // of clients
   PortCounters counters;
-  Loop loop;  // after what sessions hold shares of: it may keep the last of them
+  Loop loop;  // declared after the objects of which sessions hold shares, because it may keep the
+              // last of them
   bool draining = false;
   Clock::time_point drain_began;
   Clock::time_point drained_by = Clock::time_point::max();
-  std::string scratch;  // what a session has just received
+  std::string scratch;  // the bytes that a session has just received
 
  private:
   void work(Job& job);
@@ -109,12 +110,12 @@ class Port {
   std::list<std::shared_ptr<Session>> sessions_;
   bool ending_ = false;
 
-  std::mutex mutex_;  // what other threads leave for the loop's
+  std::mutex mutex_;  // guards the data that other threads leave for the loop
   std::shared_ptr<Job> finished_;
   std::vector<std::function<void()>> told_;
 
  public:
-  Slots slots;  // last: its threads use what is above
+  Slots slots;  // last, because its threads use the members above
 };
 
 }  // namespace tubecut::server

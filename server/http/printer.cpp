@@ -10,7 +10,7 @@
 namespace tubecut::server {
 namespace {
 
-/// A body beyond this costs more to copy behind its head than to hand over beside it.
+/// If a body is larger than this, copying it behind its head costs more than sending it separately.
 constexpr std::size_t kCopied = 4u << 10;
 
 /// RFC 9110, 6.6.1. Printed once a second and thread.

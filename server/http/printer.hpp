@@ -13,7 +13,8 @@ namespace tubecut::server {
 struct Printed {
   std::string bytes = {};
   std::string rest = {};                // to be sent after them: a large body, which is not copied
-  std::string_view fixed = {};          // instead of that: what stands as long as the program
+  std::string_view fixed = {};          // used instead of `body`: bytes that live as long as the
+                                        // program
   std::function<void(bool)> sent = {};  // see Response
 };
 

@@ -22,21 +22,21 @@ using Code = boost::beast::error_code;
 constexpr std::size_t kLineBytes = 4096;  // a chunk's line, or the trailer section
 constexpr std::size_t kChunkOverhead =
     65536;  // framing bytes a chunked body may add to twice its size
-/// No chunked body ends in fewer bytes; Beast 1.74 asserts that it is never asked with fewer.
+/// A chunked body ends with at least this many bytes; Beast 1.74 asserts that it gets them.
 constexpr std::size_t kShortestEnd = std::string_view("0\r\n\r\n").size();
-/// Room for a body by what has come of it. Twice would be enough, but for the moment of a move
-/// there is the room before it too.
+/// Growth of a body's buffer relative to the bytes received. Twice would be enough, but while the
+/// buffer moves, the old one still exists.
 constexpr std::size_t kReadAhead = 8;
 constexpr std::size_t kEmptyLines = 8;  // bytes of CR LF before a request line (RFC 9112, 2.2)
 
 std::string_view view(Text text) { return {text.data(), text.size()}; }
 
-/// Collects what Beast finds. Trailer fields are read and dropped.
+/// Collects the parts that Beast finds. Trailer fields are read and dropped.
 class Parser final : public http::basic_parser<true> {
  public:
   explicit Parser(std::size_t most_fields) : most_fields_(most_fields) {
     header_limit(std::numeric_limits<std::uint32_t>::max());  // the head is bounded by its owner
-    // Not boost::none: 1.74 then takes every Content-Length for too large.
+    // Not boost::none, because 1.74 then treats every Content-Length as too large.
     body_limit(std::numeric_limits<std::uint64_t>::max());
     eager(true);
   }
@@ -132,7 +132,8 @@ struct RequestReader::Impl {
   std::size_t on_wire = 0;  // bytes of a chunked body with its framing
 };
 
-/// The parser is given a whole head at once, so that bytes can be judged before it smooths them.
+/// Gives the parser a whole head at a time, so that its bytes are checked before the parser
+/// normalises them.
 std::size_t RequestReader::Impl::take_head(std::string_view in) {
   std::size_t skipped = 0;
   while (head.empty() && skipped < in.size() && (in[skipped] == '\r' || in[skipped] == '\n')) {
@@ -145,7 +146,7 @@ std::size_t RequestReader::Impl::take_head(std::string_view in) {
   head.append(in.substr(0, limits.head_bytes + 4 - std::min(before, limits.head_bytes)));
   const auto end = head.find("\r\n\r\n", from);
   const std::size_t length = end == std::string::npos ? head.size() : end + 4;
-  // The last byte of an unfinished head is judged with the next one.
+  // The last byte of an unfinished head is checked together with the next one.
   const std::size_t judged = end == std::string::npos && length > 0 ? length - 1 : length;
   const std::size_t unjudged = before < 2 ? 0 : before - 1;
   if (const auto wrong = byte_fault({head.data(), length}, unjudged, judged); !wrong.empty()) {
@@ -176,7 +177,8 @@ std::size_t RequestReader::Impl::read_head(std::string_view bytes, std::size_t t
   return taken;
 }
 
-/// Slices make a chunk's line, or the trailers, refused by its length alone, however it came.
+/// Passes slices, so that a chunk's line or the trailers are refused only by their length, for any
+/// arrival pattern.
 std::size_t RequestReader::Impl::take_body(std::string_view in) {
   std::size_t taken = 0;
   while (taken < in.size() && state == State::body) {

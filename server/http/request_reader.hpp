@@ -13,8 +13,8 @@ struct ReaderLimits {
   std::size_t fields = 64;
 };
 
-/// Reads one HTTP/1.x request out of bytes as they come, strictly: what two programs could read in
-/// two ways is a fault. It holds no more than the head's limit and the body allowed.
+/// Reads one HTTP/1.x request from bytes as they arrive, strictly: if two programs could read it in
+/// two ways, it is a fault. Holds at most the head's limit and the permitted body.
 class RequestReader {
  public:
   enum class State { head, body, whole, faulty };
@@ -24,9 +24,9 @@ class RequestReader {
   RequestReader(RequestReader&&) noexcept;
   RequestReader& operator=(RequestReader&&) noexcept;
 
-  /// Takes bytes from the front of `in` and says how many; the rest is to be offered again with
-  /// what follows it. Stops at the end of the head, so that `allow_body` can come in between, and
-  /// at the end of the request: bytes behind it belong to the next one.
+  /// Takes bytes from the front of `in` and returns their number; offer the rest again with the
+  /// bytes that follow it. Stops at the end of the head, so that `allow_body` can be called, and at
+  /// the end of the request, because later bytes belong to the next one.
   std::size_t take(std::string_view in);
 
   [[nodiscard]] State state() const;
@@ -46,8 +46,8 @@ class RequestReader {
   [[nodiscard]] bool takes_chunks() const;
   /// Whether the client leaves the connection open for another request.
   [[nodiscard]] bool keeps_alive() const;
-  /// Bytes taken from memory: for the head, and for the body as far as it came. What a length
-  /// announces takes none.
+  /// Returns the bytes taken from memory: for the head, and for the received part of the body. An
+  /// announced length takes no memory.
   [[nodiscard]] std::size_t held() const;
 
  private:

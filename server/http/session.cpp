@@ -22,8 +22,8 @@ constexpr auto kFirstByteWhileDraining = 500ms;
 /// A client that still sends reads no answer: its bytes are dropped until it pauses, or is done.
 constexpr auto kLingerTime = 1s;  // of silence
 constexpr std::size_t kLingerBytes = 64u << 20;
-/// A client that has closed its side only half still reads a quick answer; one that hung up cannot
-/// be told apart until this has passed.
+/// If a client has closed only its sending side, it still reads a quick answer; during this time it
+/// looks the same as a client that hung up.
 constexpr auto kHangUpGrace = 250ms;
 constexpr auto kQuickLook = 5ms;   // of those, whether its turn in the lane has come
 constexpr auto kCheckPeer = 20ms;  // whether the client is still there, while its job is worked on
@@ -31,7 +31,7 @@ constexpr double kLikely = 0.5;    // of a job's wait, as the last jobs of its k
 
 constexpr std::string_view kFull = "All slots and the queue are full.";
 
-/// The job waited for a slot and gets none.
+/// Refuses a job that waited for a slot and gets no slot.
 void refuse_waiting(Job& job, PortCounters& counters) {
   ++(job.displaced ? counters.queue : counters.wait);
   job.request.refusal = {
@@ -89,7 +89,7 @@ Chain::Pause Session::turn_over() {
   return yield();
 }
 
-/// The next request, or why it is refused. False when none comes.
+/// Reads the next request, or the reason to refuse it. Returns false if no request comes.
 Task<bool> Session::read_request() {
   if (refusal_) co_return true;  // before it came
   reader_ = RequestReader(port_.limits);
@@ -144,7 +144,7 @@ Task<void> Session::read_body() {
   }
 }
 
-/// Gives the reader what is there, or waits for more.
+/// Gives the reader the available bytes, or waits for more.
 Task<Session::Got> Session::advance() {
   for (;;) {
     if (digest_rest()) co_return Got::bytes;
@@ -160,7 +160,7 @@ Task<Session::Got> Session::advance() {
   }
 }
 
-/// The reader takes what was left over; false when it wants more than that.
+/// Gives the reader the remaining bytes. Returns false if it needs more.
 bool Session::digest_rest() {
   if (in_.empty() || starved_) return false;
   in_at_ += digest(std::string_view(in_).substr(in_at_));
@@ -182,7 +182,7 @@ std::size_t Session::digest(std::string_view bytes) {
   return taken;
 }
 
-/// Takes what the socket has; nothing when it has none now.
+/// Takes the bytes that the socket has; nothing if it has no bytes now.
 std::optional<Session::Got> Session::receive() {
   boost::system::error_code error;
   const auto n = socket_.read_some(asio::buffer(port_.scratch), error);
@@ -209,7 +209,7 @@ void Session::drop_rest() {
   starved_ = false;
 }
 
-/// Sets memory aside for what has come of the next requests.
+/// Reserves memory for the received bytes of the next requests.
 void Session::count_arriving() {
   const bool reading = state_ == State::head || state_ == State::body;
   arriving_.resize((reading && !gives_way_ ? reader_.held() : 0) + in_.size() - in_at_);
@@ -220,7 +220,7 @@ void Session::give_way() {
   drop_rest();
   if (gives_way_) {
     give_back(reader_.request().body);
-  } else {  // what came behind the request being answered is not read
+  } else {  // bytes behind the current request are not read
     ends_ = true;
     for (const auto& job : jobs_) job->close = true;
   }
@@ -296,7 +296,7 @@ bool Session::in_time(Job& job) const {
   return port_.slots.expected_wait(job) <= kLikely * (seconds(job.due) - job.request.times.read);
 }
 
-/// Sets the job's memory aside and queues it; or tells why not.
+/// Reserves the job's memory and queues it. Returns a refusal if that fails.
 std::optional<Refusal> Session::offer(const std::shared_ptr<Job>& job) {
   const Request& request = job->request;
   port_.set_budget(*job);
@@ -318,7 +318,7 @@ std::optional<Refusal> Session::offer(const std::shared_ptr<Job>& job) {
   return Refusal{ErrorCode::overloaded, std::string(kFull)};
 }
 
-/// Whose the request is, and that it has not too many connections.
+/// Determines the client of the request, and checks its number of connections.
 std::optional<Refusal> Session::know_client(Job& job) {
   client_ = port_.service.client ? port_.service.client(job.request) : peer_;
   if (client_ == peer_ || key_.is_of(client_)) return std::nullopt;
@@ -394,7 +394,7 @@ Task<void> Session::send(Printed answer) {
   report(true);
 }
 
-/// Sends what the socket takes; true when nothing is left.
+/// Sends as much as the socket takes. Returns true when all is sent.
 bool Session::send_some() {
   const std::string_view front = out_, tail = rest_.empty() ? fixed_ : std::string_view(rest_);
   const auto all = front.size() + tail.size();
@@ -415,7 +415,7 @@ bool Session::send_some() {
   return true;
 }
 
-/// Sets memory aside for what is still to be sent.
+/// Reserves memory for the bytes still to be sent.
 void Session::count_sending() { sending_.resize(out_.size() + rest_.size()); }
 
 /// A few bytes that fit any socket's buffer.
@@ -424,7 +424,7 @@ void Session::say(std::string_view bytes) {
   socket_.write_some(asio::buffer(bytes), error);
 }
 
-/// Tells once what became of the answer. A log line that memory is short for is lost.
+/// Reports the outcome of the answer once. If memory is short for the log line, the line is lost.
 void Session::report(bool whole) noexcept {
   try {
     if (const auto tell = std::exchange(sent_, nullptr)) tell(whole);

@@ -12,8 +12,9 @@
 
 namespace tubecut::server {
 
-/// One connection: its life is one coroutine, and a batch on it another (see batch.hpp). What
-/// others may do to it is said here; they change what it holds, and it sees so when it is resumed.
+/// One connection: its life is one coroutine, and a batch on it another (see batch.hpp). The public
+/// functions are all that others may do to it; they change its state, and the coroutine sees the
+/// change when it resumes.
 class Session final : public Strand {
  public:
   enum class State {
@@ -22,9 +23,9 @@ class Session final : public Strand {
     body,      // its body
     working,   // a job waits for a slot or runs, or a batch's lines do
     writing,   // the answer is on its way
-    lingering  // nothing more is answered; lets the client read what was
+    lingering  // sends no more answers; lets the client read the last one
   };
-  /// The connection is no more: thrown wherever its life stands then.
+  /// The connection is closed: thrown at the coroutine's current point.
   struct Gone {};
   using InPort = std::list<std::shared_ptr<Session>>::iterator;
 
@@ -39,16 +40,16 @@ class Session final : public Strand {
   [[nodiscard]] const std::string& peer() const { return peer_; }
   /// The first byte of the request on its way.
   [[nodiscard]] Clock::time_point received() const { return received_; }
-  /// When the client has to be done with what it does.
+  /// Deadline for the client's current action.
   [[nodiscard]] Clock::time_point due() const;
-  /// Bytes of requests not yet handed on; 0 when all of that was told to give way.
+  /// Bytes of requests not yet handed on; 0 if these were already evicted.
   [[nodiscard]] std::size_t holds_arriving() const { return arriving_.bytes(); }
   [[nodiscard]] std::size_t holds() const { return arriving_.bytes() + sending_.bytes(); }
   /// Whether its client has been taking an answer since before that.
   [[nodiscard]] bool takes_since(Clock::time_point late) const;
   [[nodiscard]] bool is_cut() const { return cut_; }
 
-  /// Drops what has come of its next request, which is refused.
+  /// Drops the received part of its next request, which is refused.
   void give_way();
   /// Ends the connection at once.
   void cut();
@@ -59,7 +60,7 @@ class Session final : public Strand {
 
  private:
   friend class Batch;
-  enum class Got { bytes, end, late, nothing, no_room };  // nothing: and none is waited for
+  enum class Got { bytes, end, late, nothing, no_room };  // nothing: no bytes, and no wait for any
 
   Task<void> live();
   Task<bool> read_request();
@@ -98,16 +99,16 @@ class Session final : public Strand {
   Port& port_;
   Socket socket_;
   std::string peer_;    // numeric address
-  std::string client_;  // whose the last request is
+  std::string client_;  // the client of the last request
   Place place_;         // among its address's
-  Place key_;           // among its key's; none where there are no keys
+  Place key_;           // permit among its key's connections; empty without keys
   InPort at_;
   State state_ = State::idle;
   bool fresh_ = true;  // no request yet
   bool ends_ = false;  // with the answer being made or sent
   bool cut_ = false;
   bool gives_way_ = false;
-  bool awaits_reading_ = false;  // an event is asked for
+  bool awaits_reading_ = false;  // an event is pending
   bool awaits_writing_ = false;
   int reads_ = 0;  // since others had their turn
   int requests_ = 0;

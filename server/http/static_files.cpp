@@ -1,6 +1,6 @@
 #include "server/http/static_files.hpp"
 
-#define ZLIB_CONST  // what it unpacks is not its own
+#define ZLIB_CONST  // makes zlib's input pointer const
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view kHtml = "text/html; charset=utf-8";
 
 /// Nothing from elsewhere, nothing inline, no frames, no text run as script; the console compiles
-/// the WebAssembly that reads IFC files. The API reference sets styles on its elements and carries
+/// the WebAssembly that reads IFC files. The API reference sets styles on its elements and contains
 /// its icons as data.
 constexpr std::string_view kPolicy =
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; "
@@ -59,7 +59,7 @@ bool takes_gzip(const Request& request) {
 }
 
 std::string unpack(const StaticFile& file) {
-  constexpr int kGzip = 16 + MAX_WBITS;  // zlib's way to say that it is no stream of its own format
+  constexpr int kGzip = 16 + MAX_WBITS;  // selects the gzip format in zlib
   std::string plain(file.bytes, '\0');
   z_stream stream{};
   if (inflateInit2(&stream, kGzip) != Z_OK) throw std::bad_alloc();
@@ -75,7 +75,7 @@ std::string unpack(const StaticFile& file) {
 
 std::string_view unpacked(const StaticFile& file) {
   static std::mutex one_at_a_time;
-  static std::map<std::string_view, std::string> kept;  // by the ETag, the name of what is in it
+  static std::map<std::string_view, std::string> kept;  // by the ETag, the hash of the content
   const std::lock_guard lock(one_at_a_time);
   const auto found = kept.find(file.etag);
   return found != kept.end() ? found->second : kept.emplace(file.etag, unpack(file)).first->second;

@@ -9,7 +9,7 @@ namespace tubecut::server {
 
 class Chain;
 
-/// What the promises of all tasks have in common.
+/// The common part of all tasks' promises.
 struct TaskPromise {
   /// Back to whoever awaits the task.
   struct Return {
@@ -47,7 +47,7 @@ struct TaskResult<void> : TaskPromise {
   void take() const { rethrow(); }
 };
 
-/// A coroutine that begins when it is awaited. What it throws, its caller gets.
+/// A coroutine that begins when it is awaited. Its exceptions go to its caller.
 template <class T>
 class [[nodiscard]] Task {
  public:
@@ -99,7 +99,7 @@ class Chain {
   /// The first task has ended.
   [[nodiscard]] bool ended() const { return !top_; }
 
-  /// Unwinds every task where it stands.
+  /// Unwinds every task at its current point.
   void drop() {
     top_ = nullptr;
     first_ = {};

@@ -12,8 +12,8 @@
 
 namespace tubecut::server {
 
-/// What a transport asks of the application behind it. `handle` is called from the slots' threads
-/// and the port's own; the others from the port's own.
+/// The functions that a transport requires of the application behind it. The slots' threads and the
+/// port's own call `handle`; only the port's own calls the others.
 struct Service {
   /// Answers one request: whole, or with the reason why it could not be read.
   std::function<Response(const Request&)> handle;
@@ -23,8 +23,8 @@ struct Service {
   std::function<std::size_t(std::string_view target)> max_body;
   /// Whether a whole request may queue for a slot; empty: always.
   std::function<std::optional<Refusal>(const Request&)> admit = {};
-  /// Whether the request's body is a batch, each line a job and answered by `line` as soon as it is
-  /// done; empty: none is.
+  /// Returns whether the request's body is a batch, of which each line is a job that `line` answers
+  /// as soon as it is done; empty: no batches.
   std::function<bool(const Request&)> is_batch = {};
   /// The head of a batch's answer: status and headers. Anything but 200 is its whole answer.
   std::function<Response(const Request&)> batch_head = {};
@@ -36,13 +36,13 @@ struct Service {
   std::function<std::size_t(const Request&)> memory = {};
   /// The same of a line of a batch.
   std::function<std::size_t(std::string_view line)> line_memory = {};
-  /// The largest body whose job has that; empty: as much as there is.
+  /// Returns the largest body whose job fits in the memory; empty: no limit.
   std::function<std::size_t(std::string_view target)> room = {};
-  /// Whose the request is: clients take turns. Empty: the address's.
+  /// Returns the client of the request, for fair turns. Empty: the address.
   std::function<std::string(const Request&)> client = {};
-  /// What jobs of about the same length have in common, of a closed set; empty: all are alike.
+  /// Returns a label, of a closed set, of jobs with about the same length; empty: all are alike.
   std::function<std::string_view(const Request&)> kind = {};
-  /// Whether many clients come from that address, a proxy's; empty: none does.
+  /// Returns whether many clients come from that address, a proxy's; empty: no shared address.
   std::function<bool(const std::string& peer)> is_shared = {};
   /// Time for the job; empty: no end.
   std::function<Budget(const Request&)> budget = {};
@@ -65,7 +65,7 @@ struct TransportOptions {
   std::chrono::milliseconds write = std::chrono::seconds(10);  // the whole answer
 };
 
-/// Bytes that jobs and answers share; the largest number where there is no bound.
+/// Returns the bytes that jobs and answers share; the largest number if there is no bound.
 [[nodiscard]] std::size_t memory_for_jobs(const TransportOptions& options);
 
 /// How a port is doing, for the metrics. Counters since the start.

@@ -13,8 +13,8 @@
 namespace tubecut::server {
 namespace {
 
-/// Of the memory allowed, for bodies, jobs and answers; the rest is for the program, the log, the
-/// allocator's gaps and what a job needs beyond its estimate.
+/// Fraction of the permitted memory for bodies, jobs and answers; the rest is for the program, the
+/// log and the allocator's gaps.
 constexpr double kShare = 0.6;
 
 std::string first_line(const std::string& file) {
@@ -24,8 +24,8 @@ std::string first_line(const std::string& file) {
   return line;
 }
 
-/// Whether a line "4:cpu,cpuacct:/a/b" of /proc/self/cgroup is of the controller; version 2 names
-/// none.
+/// Returns whether a line "4:cpu,cpuacct:/a/b" of /proc/self/cgroup belongs to the controller;
+/// version 2 names no controller.
 bool is_of(const std::string& line, std::string_view controller) {
   const auto first = line.find(':'), second = line.find(':', first + 1);
   if (second == std::string::npos) return false;
@@ -37,8 +37,9 @@ bool is_of(const std::string& line, std::string_view controller) {
   return false;
 }
 
-/// The group's folders from its own up to the root: a limit of any of them binds. Of version 2, or
-/// of one controller of version 1, which stands below the root under its own name.
+/// Returns the group's folders from its own up to the root, because a limit of any of them binds.
+/// For version 2, or for one controller of version 1, whose folder is named after it below the
+/// root.
 std::vector<std::string> folders(const std::string& root, const std::string& self,
                                  const std::string& controller = "") {
   std::string path;
@@ -52,7 +53,7 @@ std::vector<std::string> folders(const std::string& root, const std::string& sel
   return all;
 }
 
-/// The least of what is said, of those that say anything.
+/// Returns the minimum of the values that are present.
 template <class Number>
 void take_least(Number& least, Number said) {
   if (said > Number{}) least = least == Number{} ? said : std::min(least, said);

@@ -6,7 +6,7 @@
 
 namespace tubecut::server {
 
-/// What this process may use, and who says so.
+/// The CPUs and memory that this process may use, and the sources of these limits.
 struct Capacity {
   int slots = 1;
   std::string slots_from = "machine";  // cgroup | affinity | machine | option

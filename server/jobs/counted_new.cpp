@@ -11,7 +11,7 @@ namespace {
 
 using tubecut::server::JobMemory;
 
-constexpr std::size_t kHeader = 8;  // of the allocator, beside each block
+constexpr std::size_t kHeader = 8;  // the allocator's own bytes next to each block
 
 void* counted(void* block) {
   if (block == nullptr) throw std::bad_alloc();
@@ -46,8 +46,8 @@ void* or_none(Get get) noexcept {
 
 }  // namespace
 
-// All forms stand here: those of arrays and those that throw nothing would else be the allocator's
-// or a sanitizer's own.
+// All forms are defined here, because the array and nothrow forms would otherwise be the
+// allocator's or a sanitizer's own.
 void* operator new(std::size_t size) { return counted(std::malloc(size)); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return aligned(size, alignment);

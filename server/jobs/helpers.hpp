@@ -14,19 +14,19 @@
 
 namespace tubecut::server {
 
-/// Threads beside those of the slots that do turns of running jobs while slots are free: as many at
-/// a time as there are free slots. They hold no slot: a job that comes has it at once, and whoever
-/// helps then is gone after the turn at hand.
+/// Threads, in addition to those of the slots, that run parallel tasks of running jobs while slots
+/// are free: as many at a time as there are free slots. They hold no slot: a new job gets its slot
+/// at once, and the helper leaves after its current task.
 class Helpers {
  public:
   /// Of one job at a time.
   static constexpr std::size_t kMost = CpuBudget::kThreads - 1;
 
-  /// What a thread does for one job, in its own surroundings: `within` calls it once.
+  /// The work of a thread for one job. `within` calls it once, in the job's context.
   using Stint = std::function<void()>;
   using Within = std::function<void(const Stint&)>;
 
-  /// Fewer where the system gives no more threads; each begins with `started`.
+  /// Starts fewer threads if the system gives no more; each begins with `started`.
   Helpers(std::size_t threads, const std::function<void()>& started);
   ~Helpers() { join(); }
   Helpers(const Helpers&) = delete;
@@ -35,11 +35,11 @@ class Helpers {
   /// Ends the threads; jobs do the rest of their turns themselves.
   void join();
 
-  /// So many may help from now on. From any thread.
+  /// Sets how many threads may help from now on. From any thread.
   void allow(int most);
 
-  /// See tubecut::Turns; in the job's thread, which does turns too. Each thread that helps does so
-  /// `within`, which throws nothing.
+  /// See tubecut::Turns; runs in the job's thread, which does tasks too. Each helping thread does
+  /// so `within`, which must not throw.
   void take_turns(std::size_t count, const Turn& turn, const Within& within);
 
  private:
@@ -49,7 +49,7 @@ class Helpers {
     const Within& within;
     std::size_t next = 0;
     std::size_t helped_by = 0;
-    std::size_t failed = 0;  // the least turn that threw
+    std::size_t failed = 0;  // index of the first task that threw
     std::exception_ptr failure = nullptr;
     std::condition_variable left = {};
   };

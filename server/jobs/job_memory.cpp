@@ -5,7 +5,7 @@
 namespace tubecut::server {
 namespace {
 
-/// Asked for at a time: each time the port's memory is touched.
+/// Bytes requested at a time, because each request touches the port's memory.
 constexpr std::size_t kStep = 1u << 20;
 
 thread_local JobMemory* t_job = nullptr;  // NOLINT: operator new has no other way to know

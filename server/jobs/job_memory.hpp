@@ -14,39 +14,38 @@ struct NoRoom : std::bad_alloc {
   bool ever_fits;  // it is in use now; false: the whole of it would not be enough
 };
 
-/// The memory that this thread takes for one job, counted to the byte wherever operator new asks
-/// for some. Beyond what it was given the job asks for more, and where there is none operator new
-/// throws NoRoom: no job takes what was not set aside for it. Counted only in programs that link
-/// counted_new.cpp.
+/// The memory that this thread takes for one job, counted to the byte in operator new. If the job
+/// needs more than it was given, it requests more; if that fails, operator new throws NoRoom, so no
+/// job takes memory that is not reserved for it. Counts only in programs that link counted_new.cpp.
 class JobMemory {
  public:
   enum class Grant { given, in_use, never };
-  /// Gives so many bytes more, or says why not.
+  /// Grants this number of bytes more, or returns the reason for the refusal.
   using Grow = std::function<Grant(std::size_t bytes)>;
 
-  /// `given`: bytes to begin with. One at a time in a thread. `live`: where other threads read how
-  /// many bytes it holds; nullptr: none do.
+  /// `given`: initial bytes. One object at a time per thread. `live`: counter in which other
+  /// threads read the bytes held; nullptr: not used.
   JobMemory(std::size_t given, Grow grow, std::atomic<std::size_t>* live = nullptr);
   ~JobMemory();
   JobMemory(const JobMemory&) = delete;
   JobMemory& operator=(const JobMemory&) = delete;
 
-  /// The most bytes at a time so far.
+  /// Peak of the bytes held until now.
   [[nodiscard]] std::size_t peak() const { return peak_; }
 
-  /// The same of the job that this thread works on; 0: none.
+  /// The same for the job of this thread; 0 without a job.
   [[nodiscard]] static std::size_t peak_here();
 
-  /// What another thread has taken for the job, and what it was given for that, is this thread's
-  /// job's from now on.
+  /// Memory that another thread has taken for the job, and its grant, which now pass to this
+  /// thread's job.
   struct Taken {
     std::size_t given = 0, live = 0;
   };
   [[nodiscard]] Taken taken() const { return {given_, live()}; }
   static void take_over(const Taken& taken);
 
-  /// For operator new and delete: the thread's job takes a block, or gives it back. What it frees
-  /// of others' is not held against them.
+  /// For operator new and delete: the thread's job takes or frees a block. Freeing other threads'
+  /// blocks does not count against them.
   static void take(std::size_t bytes);
   static void give(std::size_t bytes) noexcept;
 
@@ -61,7 +60,7 @@ class JobMemory {
   std::atomic<std::size_t>* live_;
   std::size_t peak_ = 0;
   Grow grow_;
-  bool asking_ = false;  // what asking takes is not the job's
+  bool asking_ = false;  // memory taken while requesting does not count for the job
 };
 
 }  // namespace tubecut::server

@@ -42,7 +42,8 @@ bool append(const std::string& file, std::string_view text, int more) {
   return ::close(descriptor) == 0 && written == static_cast<ssize_t>(text.size());
 }
 
-/// The folder of one day and what it holds; another replica's part of it is seen when it is opened.
+/// The folder of one day and the size of its files; another replica's files count when it is
+/// opened.
 class Day {
  public:
   Day(const std::string& folder, const std::string& day) : path_(folder + "/" + day) {
@@ -120,7 +121,7 @@ struct JobFiles::Impl {
   std::string folder;
   DayBounds bounds;
   std::string last;        // day
-  std::optional<Day> day;  // its folder; the thread's alone
+  std::optional<Day> day;  // its folder; only for the thread
   std::size_t most = 0;    // bytes of the queue
   std::size_t held = 0;    // of them
   std::mutex mutex;

@@ -8,20 +8,20 @@
 
 namespace tubecut::server {
 
-/// What one day's folder may hold; beyond it nothing is written.
+/// Limits of one day's folder; beyond them nothing is written.
 struct DayBounds {
   std::size_t files = 100'000;
   std::size_t bytes = std::size_t{1} << 30;
 };
 
-/// One file per job, `<folder>/<day>/<identity>~<job>.jsonl`, written by a thread of its own: a
-/// slow disk blocks no job. Queue and folders are bounded by bytes; what does not fit is dropped
-/// and counted.
+/// One file per job, `<folder>/<day>/<identity>~<job>.jsonl`, written by a separate thread, so that
+/// a slow disk blocks no job. Queue and folders are bounded by bytes; files beyond the bounds are
+/// dropped and counted.
 class JobFiles {
  public:
   explicit JobFiles(std::string folder, DayBounds bounds = {},
                     std::size_t queue_bytes = std::size_t{4} << 20);
-  ~JobFiles();  // writes what is queued, for a second at most
+  ~JobFiles();  // writes the queue, for at most a second
   JobFiles(const JobFiles&) = delete;
   JobFiles& operator=(const JobFiles&) = delete;
 
@@ -37,9 +37,9 @@ class JobFiles {
   std::shared_ptr<Impl> x_;  // the thread's too: it may hang in a write
 };
 
-/// The name of a job's file without its ending: the identity of its key, a '~', which neither can
-/// hold, so that no id names another key's file, and the id where it is safe as a file's name, else
-/// "id-" and the first half of its SHA-256 in hex.
+/// Returns the name of a job's file without its ending: the identity of its key, a '~', which
+/// neither part can contain, so that no id names another key's file, and the id if it is safe as a
+/// file name, else "id-" and the first half of its SHA-256 in hex.
 [[nodiscard]] std::string file_name_of(std::string_view identity, std::string_view job);
 
 }  // namespace tubecut::server

@@ -50,7 +50,7 @@ Family<Histogram>& histogram(prometheus::Registry& registry, const char* name, c
   return prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
 }
 
-/// Bytes of memory resident now; 0 where /proc is not there.
+/// Returns the resident bytes of memory now; 0 without /proc.
 double resident_bytes() {
   std::ifstream statm("/proc/self/statm");
   double total = 0.0;
@@ -59,7 +59,7 @@ double resident_bytes() {
   return statm ? resident * static_cast<double>(sysconf(_SC_PAGESIZE)) : 0.0;
 }
 
-/// Seconds since 1970 when this process began, to a hundredth; 0 where /proc is not there.
+/// Returns the start time of this process in seconds since 1970, to a hundredth; 0 without /proc.
 double begun_at() {
   std::ifstream file("/proc/self/stat");
   std::string stat{std::istreambuf_iterator<char>(file), {}};
@@ -204,7 +204,7 @@ struct Metrics::Impl {
     show_levels();
   }
 
-  /// increase() sees only what rises: a series that begins with its first failure would hide it.
+  /// increase() sees only growth, so a series that begins with its first failure would hide it.
   void start_at_zero() {
     auto endpoints = api::endpoint_ids();
     endpoints.emplace_back(kNoEndpoint);
@@ -218,7 +218,7 @@ struct Metrics::Impl {
     }
   }
 
-  /// The series of a configuration that is no longer there ends.
+  /// Ends the series of a configuration that no longer applies.
   void show_configuration() {
     auto sha256 = api::configuration_sha256();
     if (sha256 == configured.first) return;

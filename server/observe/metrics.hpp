@@ -10,7 +10,7 @@
 
 namespace tubecut::server {
 
-/// What is read at each scrape.
+/// The values that each scrape reads.
 struct MetricSources {
   std::function<std::uint64_t()> log_drops = [] { return std::uint64_t{0}; };
   std::function<std::uint64_t()> file_drops = [] { return std::uint64_t{0}; };
@@ -18,9 +18,9 @@ struct MetricSources {
   std::function<TransportStats()> transport = [] { return TransportStats{}; };
 };
 
-/// Counters and histograms in Prometheus' terms, HTTP's under OpenTelemetry's names. Labels come
-/// from closed sets only (endpoint ids, error codes, statuses), so the number of series is bounded
-/// whatever clients send.
+/// Counters and histograms for Prometheus; HTTP metrics use OpenTelemetry's names. Labels come from
+/// closed sets only (endpoint ids, error codes, statuses), so clients cannot increase the number of
+/// series.
 class Metrics {
  public:
   explicit Metrics(MetricSources sources);
