@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-/// What core's tables are measured beside: the same formulas as one would write them down, one
-/// station after the other, in doubles on the C library. No events, no adaptive rows, no proofs, no
-/// other partner than a tube; what it does is what every program of bevel tables has to do.
+/// Reference for core's tables: the same formulas written plainly, one station after the other, in
+/// doubles on the C library. No events, no adaptive rows, no verification, only tubes as partners;
+/// this is the minimum that every program of bevel tables computes.
 /// Source  docs/theory/intersections-and-bevels.md.
 namespace baseline {
 
@@ -33,7 +33,7 @@ struct Angles {
 };
 Angles contour_with_angles(const std::vector<Tube>& tubes, double rho, int n);
 
-/// What the swing axis can follow: rad/mm and rad/mm^2.
+/// Limits of the swing axis: rad/mm and rad/mm^2.
 struct Limits {
   double slope, curvature;
 };

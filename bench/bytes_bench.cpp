@@ -1,4 +1,4 @@
-// What it takes to print: a table's numbers, its columns, its answer with the hash, the hash alone.
+// Times of printing: a table's numbers, its columns, its answer with the hash, only the hash.
 
 #include <benchmark/benchmark.h>
 

@@ -1,6 +1,6 @@
 // Answers every request with the bytes of one file, on the transport of the service:
-// `constant-server FILE [PORT]`. Its first line on stdout names the port. What this reaches beside
-// the service is the share of HTTP in a job.
+// `constant-server FILE [PORT]`. Its first line on stdout names the port. Its throughput, compared
+// with the service's, gives the fraction of HTTP in a job.
 
 #include <fmt/format.h>
 

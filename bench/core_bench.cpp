@@ -59,8 +59,8 @@ void groove_24_sections(benchmark::State& state) {
 }
 BENCHMARK(groove_24_sections)->Unit(benchmark::kMicrosecond);
 
-/// One optimised position, the two methods side by side: their ratio is what the certificate costs,
-/// or saves.
+/// One optimised position, the two methods side by side: their ratio is the cost or saving of the
+/// certificate.
 void mill_position(benchmark::State& state) {
   const auto method = state.range(0) != 0 ? groove::Method::annealing : groove::Method::chebyshev;
   const auto request = mill_spec(90, method);

@@ -9,9 +9,9 @@
 #include <stop_token>
 #include <utility>
 
-/// For builds with TUBECUT_LOOKS alone, which bench/looks asks: a job's thread says on stderr where
-/// it worked for long without a look at its stop token. Stands in the precompiled headers; `|`
-/// makes a look also where the other side decides.
+/// Only for builds with TUBECUT_LOOKS, which bench/looks uses: a job's thread reports on stderr
+/// where it worked for long without a check of its stop token. Is in the precompiled headers; `|`
+/// checks also if the other side decides.
 namespace tubecut::looks {
 
 constexpr double kLongMs = 4.0;  // of CPU
@@ -21,7 +21,7 @@ extern "C" const char __executable_start;  // NOLINT: the linker's
 
 struct Look {
   double ms = 0.0;                            // by the thread's CPU clock
-  double kept_ms = 0.0;                       // to give back what the job holds here
+  double kept_ms = 0.0;                       // to free the memory that the job holds here
   std::array<std::uintptr_t, kCallers> at{};  // in the program, the innermost first
 };
 inline thread_local Look last;
@@ -49,13 +49,13 @@ inline void print(const Look& look) {
     if (at != 0) std::fprintf(stderr, "%zx,", at);
 }
 
-/// The job, or the piece of it that this thread has, begins. `kept`: none: no budget keeps any.
+/// The job, or the piece of it that this thread has, begins. `kept`: empty without a budget.
 inline void begin(std::function<double()> kept = {}) {
   kept_ms = std::move(kept);
   last = now();
 }
 
-/// Says what the thread did since the last look, but so much of it, when that was long.
+/// Reports the thread's work since the last check, minus `but_ms`, if it was long.
 [[gnu::noinline]] inline void say(double but_ms) {
   const auto at = now();
   const double ms = at.ms - last.ms - but_ms;
@@ -75,7 +75,8 @@ inline void begin(std::function<double()> kept = {}) {
   return false;
 }
 
-/// What the job held at its last look it has given back by now: in time that its budget kept.
+/// By now the job has freed the memory that it held at its last check, in time that its budget
+/// reserved.
 inline void end() {
   say(last.kept_ms);
   kept_ms = {};

@@ -1,4 +1,4 @@
-// Trusses of 10 to 10 000 members: core alone, and the whole request through the api. Time and
+// Trusses of 10 to 10 000 members: only core, and the whole request through the api. Time and
 // memory are linear in the members: the fitted order, and the most bytes in use per member.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
@@ -45,7 +45,7 @@ void operator delete(void* block, std::size_t, std::align_val_t) noexcept { give
 namespace tubecut {
 namespace {
 
-/// The most bytes a run had in use beyond what was there before, over its members.
+/// The peak of a run's bytes above the level before, divided by its members.
 class PeakPerMember {
  public:
   explicit PeakPerMember(benchmark::State& state) : state_(state), before_(heap.live) {
@@ -67,7 +67,7 @@ class PeakPerMember {
 constexpr double kPanel = 2000.0;
 constexpr double kHeight = 1800.0;
 
-constexpr std::int64_t kRow = 400;  // members of one truss; the next stands beside it
+constexpr std::int64_t kRow = 400;  // members of one truss; the next is placed next to it
 
 /// Trusses of two chords and the braces between them.
 joint::NodeSpec truss(std::int64_t count) {

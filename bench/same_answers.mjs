@@ -1,13 +1,14 @@
-// Two builds, the same bytes: every example and so many generated requests of every endpoint, each in JSON, and by turns in the
-// other formats it has.
-// usage: same_answers.mjs OLD_BINARY NEW_BINARY [--count 2000] [--seed N] [--only bevel-tables,parts] [--contract openapi.yaml]
+// Compares two builds byte by byte: every example and COUNT generated requests of every endpoint,
+// each in JSON, and alternately in its other formats.
+// usage: same_answers.mjs OLD_BINARY NEW_BINARY [--count 2000] [--seed N] [--only
+// bevel-tables,parts] [--contract openapi.yaml]
 import {parseArgs} from 'node:util';
 import {Contract} from '../tests/contract/schemas.mjs';
 import {drawn, sound} from '../tests/contract/generate.mjs';
 import {each, Service} from '../tests/contract/service.mjs';
 
 const SHOWN = 12;
-const NAMED = {'X-Request-Id': '0123456789abcdef0123456789abcdef'};  // a problem says it again
+const NAMED = {'X-Request-Id': '0123456789abcdef0123456789abcdef'};  // a problem repeats it
 
 const {values, positionals: [old, now]} = parseArgs({allowPositionals: true, options: {
   count: {type: 'string', default: '2000'}, seed: {type: 'string', default: '1'}, only: {type: 'string'},
@@ -22,7 +23,7 @@ const only = values.only?.split(',').map((name) => `/v1/${name}`);
 const posts = contract.posts().filter(({path}) => !only || only.includes(path));
 const share = Math.ceil(Number(values.count) / posts.length);
 
-// What a log says of the time is no answer; everything else is.
+// Times in a log are not part of the answer; everything else is.
 const silent = ({log, ...body}) => body;
 const {endpoints} = JSON.parse((await before.ask('/v1/version', {method: 'GET'})).text);
 const formats = (path) => endpoints.find((e) => e.path === path).formats.filter((type) => type !== 'application/json');

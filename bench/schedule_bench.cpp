@@ -49,7 +49,7 @@ std::string request(bool long_one) {
   return long_one ? saddle(rest) : table_1(rest);
 }
 
-/// A contour of the same kind in closed form, so that core's stages stand alone.
+/// A contour of the same kind in closed form, so that core's stages run separately.
 motion::ScheduleSpec spec(bool long_one) {
   motion::ScheduleSpec out;
   motion::CutPath c;

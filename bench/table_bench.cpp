@@ -1,4 +1,4 @@
-// Microseconds of Table 1's parts, beside a plain program of the same formulas.
+// Microseconds of Table 1's parts, compared with a plain program of the same formulas.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -138,7 +138,7 @@ void verify_table(benchmark::State& state) {
 }
 BENCHMARK(verify_table)->Unit(benchmark::kMicrosecond);
 
-/// What jobs ask for besides: a tolerance, a kerf.
+/// Additional options of jobs: a tolerance, a kerf.
 void table_job(benchmark::State& state) {
   auto request = table_1_spec(true);
   if (state.range(0) != 0) request.sampling = {.tolerance = joint::Tolerance{0.05}};

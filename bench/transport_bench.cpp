@@ -1,5 +1,5 @@
-// What docs/adr/0001 decides by: framing a request, and printing an answer by cpp-httplib or by
-// hand.
+// Figures for the decision in docs/adr/0001: framing a request, and printing an answer by
+// cpp-httplib or by hand.
 
 #include <benchmark/benchmark.h>
 #include <httplib.h>

@@ -28,7 +28,7 @@ def address(name: str) -> str:
 
 def row(name: str, data: bytes) -> str:
     packed = gzip.compress(data, 9, mtime=0)
-    kept = "true" if name.startswith("assets/") else "false"  # their names carry a hash of what is in them
+    kept = "true" if name.startswith("assets/") else "false"  # their names contain a hash of their content
     return (f'    {{"{address(name)}", "{TYPES.get(pathlib.Path(name).suffix, "application/octet-stream")}", '
             f'"\\"{hashlib.sha256(data).hexdigest()[:16]}\\"", {kept}, {{}},\n{literal(packed)}, {len(data)}}},')
 

@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-# Of fields and of values; checks and limits stand in no drawing.
+# Of fields and of values; drawings show no checks and no limits.
 SECTIONS = {"Names of fields": "field", "Names in answers": "field", "Names of warnings and of values": "value"}
 
 

@@ -22,7 +22,7 @@ PRINTED = {
     "table 1": {"equation": "(9)", "speed": (5.07086486, 0.034573, -0.000309806), "k": 0.0079, "claim": "at most 0.5 %"},
     "table 3": {"equation": "(10)", "speed": (4.77309, 0.013353, -0.0001874), "k": 0.00486, "claim": "-"},
 }
-PAIR = {"R": 150.0, "r": 80.0, "t": 10.0, "alpha": 60.0, "e": 20.0}  # ours: source 002 has formulas alone
+PAIR = {"R": 150.0, "r": 80.0, "t": 10.0, "alpha": 60.0, "e": 20.0}  # ours, because source 002 has only formulas
 
 
 class Service:

@@ -6,7 +6,7 @@ import {words} from './glossary/words';
 
 const page = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 
-// `npm run dev` beside a service started with ./dev serve.
+// `npm run dev` next to a service started with ./dev serve.
 const service = process.env['TUBECUT'] ?? 'http://127.0.0.1:8080';
 
 // Its page needs no script.

@@ -20,20 +20,21 @@ from cut_tube import (CutError, Profile, client_from_preferences, corners_of, de
 import tubecut  # noqa: E402
 
 SAMPLING = {"uniform_points": 360, "tolerance_mm": 0.01}
-BEYOND_MM = 1.0  # how far a hole's tool stands beyond both walls
+BEYOND_MM = 1.0  # distance by which a hole's tool extends beyond both walls
 
 
 @dataclasses.dataclass
 class Settings:
-    within_mm: Optional[float] = 1.0  # a tube's end joins every tube that it is in, or this far from; None: only stated joints
-    defaults: dict = dataclasses.field(default_factory=lambda: {  # how what touches is joined: of POST /v1/frames
+    # a tube's end joins every tube that it is in, or within this distance; None: only stated joints
+    within_mm: Optional[float] = 1.0
+    defaults: dict = dataclasses.field(default_factory=lambda: {  # joint of tubes that touch: of POST /v1/frames
         "root_surface": "inner", "groove": {"rule": "half_dihedral"}, "contact": "inner", "smoothing": {"method": "none"}})
     joints: list = dataclasses.field(default_factory=list)  # stated ones, between labels
     others: list = dataclasses.field(default_factory=list)  # planes and the like, which joints name
     kerf_mm: float = 0.0
 
 
-# ---- what is asked
+# ---- the request
 
 
 def names_of(targets):
@@ -58,7 +59,7 @@ def request_of(targets, settings):
             "defaults": settings.defaults, "kerf_mm": settings.kerf_mm, "sampling": SAMPLING}
 
 
-# ---- what is built, in the part's frame
+# ---- the shape, in the part's frame
 
 
 def end_profile(end):

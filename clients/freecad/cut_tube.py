@@ -21,7 +21,7 @@ for _folder in (pathlib.Path(__file__).resolve().parent, pathlib.Path(__file__).
 import tubecut  # noqa: E402
 
 COAXIAL_MM = 1e-6
-MARGIN = 0.1  # of the wall: how far the tool stands beyond both walls
+MARGIN = 0.1  # of the wall: distance by which the tool extends beyond both walls
 SAMPLING = {"uniform_points": 2880, "tolerance_mm": 0.01}
 
 
@@ -37,7 +37,7 @@ class Settings:
         "smoothing": {"method": "envelope", "limits": {"machine": "five_axis_cutter", "speed_mm_min": 600}}})
 
 
-# ---- what is selected
+# ---- the selection
 
 
 @dataclasses.dataclass
@@ -90,11 +90,12 @@ def cut_end(target, partners):
     return min(distances, key=distances.get)
 
 
-# ---- what is asked
+# ---- the request
 
 
 def _member(name, tube, priority):
-    wall = tube.outer_radius - tube.inner_radius if tube.inner_radius else tube.outer_radius / 2  # of a partner nothing asks it
+    # a partner's wall is not used
+    wall = tube.outer_radius - tube.inner_radius if tube.inner_radius else tube.outer_radius / 2
     return {"id": name, "start_mm": list(tube.start), "end_mm": list(tube.end), "outer_diameter_mm": 2 * tube.outer_radius,
             "wall_mm": wall, "priority": priority}
 
@@ -168,7 +169,7 @@ def plain_profile(result):
     return Profile(both, columns["inner"], columns["outer"], sorted({c for wall in walls.values() for c in wall[2]}))
 
 
-# ---- what is built
+# ---- the shape
 
 
 def _stretches(profile):

@@ -43,13 +43,13 @@ _BATCH_LINES = 2000
 _PART_LINES = 8  # at least, so that a replica of several slots has work for each
 _STREAMS = 32  # at most
 _PINNED = frozenset({"numerics_mismatch", "machine_mismatch"})  # a replica of the version that the request pins would answer
-_PIN_S = 5.0  # for so long other replicas are looked for behind addresses of several
-_PIN_AGAIN = 20  # refusals of one name alone, and there is no other behind an address
+_PIN_S = 5.0  # time for which other replicas are tried behind addresses of several
+_PIN_AGAIN = 20  # refusals by only one name, after which there is no other behind an address
 _SAME_AGAIN = 3  # answers of replicas known already, and there is no other behind an address
 _COUNT_S = 60.0  # how long a number of replicas is believed
 _PROBE_S = 2.0
 _CONNECT_S = 10.0
-_AWAY_S = 5.0  # how long a replica that was down is asked last
+_AWAY_S = 5.0  # time for which a replica that was down is tried last
 _NDJSON = "application/x-ndjson"
 
 
@@ -326,7 +326,7 @@ class Frame:
             raise KeyError(member) from None
 
 
-Progress = Callable[[int, Optional[int], int], None]  # done, of how many (None: not known yet), refused among them
+Progress = Callable[[int, Optional[int], int], None]  # done, total (None: not known yet), refused among them
 
 
 class ProgressBar:
@@ -452,7 +452,7 @@ class Client:
         self._batches: Dict[str, bool] = {}  # which replica has /v1/batches
         self._asking = {url: threading.Lock() for url in self._urls}  # for that
         self._counted = (0, 0.0)  # replicas, and until when
-        self._away: Dict[str, float] = {}  # replicas that were down, and until when they are asked last
+        self._away: Dict[str, float] = {}  # replicas that were down, and until when they are tried last
 
     # -- one job
 
@@ -581,7 +581,7 @@ class Client:
                         yield head
                     for one in self._answers(reply, parts):
                         if one.status in _RETRYABLE or one.id not in waiting:
-                            continue  # asked for again below, or known already
+                            continue  # requested again below, or known already
                         waiting.remove(one.id)
                         run.answered()
                         yield one
@@ -789,7 +789,7 @@ class Client:
         sender: Optional[threading.Thread] = None
         try:
             connection.connect()
-            wire = connection.sock  # getresponse() forgets it when the answer says Connection: close
+            wire = connection.sock  # getresponse() drops it if the answer has Connection: close
             if isinstance(wire, _Duplex):
                 wire.by_two(self._timeout_s)
             else:

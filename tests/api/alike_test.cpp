@@ -1,7 +1,7 @@
-// Which members of a frame are one part, and how far each may differ from it: frames made up at
-// random, turned in space, rounded as models are, their members in any order. The distances are
-// measured in the world between the part that is made and the one a member would have alone, point
-// by point in long double: nothing here is core's.
+// Groups the members of a frame into parts and bounds the differences within a group: frames made
+// at random, turned in space, rounded as models are, their members in any order. The distances are
+// measured in the world between the part that is made and the part that a member would have by
+// itself, point by point in long double, without any code of core.
 
 #include <gtest/gtest.h>
 
@@ -88,7 +88,7 @@ Json rounded(const Point& p, Real to) {
   return Json{std::move(out)};
 }
 
-/// `to`: what coordinates are rounded to, 0 for none.
+/// `to`: rounding of coordinates, 0 for no rounding.
 Json request_of(const Model& model, const Motion& moved, Real to, int rows) {
   Json::Array members;
   for (const auto& bar : model.bars)
@@ -368,7 +368,8 @@ TEST(Alike, AMirrorImageIsAnotherPartAndATurnedOneIsNot) {
   }
 }
 
-// Beside the asked distance parts are others, within it one; what is stated is what they differ by.
+// Beyond the requested distance parts differ, within it they are one; the stated difference is the
+// real one.
 TEST(Alike, TheDistanceDecides) {
   Random random;
   for (int i = 0; i < 30; ++i) {

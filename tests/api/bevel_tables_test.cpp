@@ -19,8 +19,7 @@ double largest_step(const std::vector<double>& b) {
   return worst;
 }
 
-// docs/theory/intersections-and-bevels.md, section 7: "What Table 1 gives with root inner, contact
-// inner".
+// docs/theory/intersections-and-bevels.md, section 7: Table 1 with root inner, contact inner.
 TEST(BevelTables, EchoAnglesAsTheyWereSent) {
   const auto request = with(example("bevel-tables/source-000-table-1.json"),
                             "sampling/uniform_points", api::Json{8.0});

@@ -34,7 +34,7 @@ std::vector<std::vector<Dot>> drawn(const std::string& svg) {
   return out;
 }
 
-/// What a line covers of a column of pixels.
+/// Range of a pixel column that a line covers.
 struct Covered {
   double low = 1e9, high = -1e9;
   void add(double y) {

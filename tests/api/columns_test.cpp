@@ -34,7 +34,7 @@ std::vector<std::string> names_of(const Json& object) {
   return out;
 }
 
-/// Beside what is left out, nothing changes but how the request reads.
+/// Omitting columns changes only the echoed request.
 TEST(Columns, AreThoseNamedInTheOrderOfTheTable) {
   const auto whole = post(kPath, table_1());
   ASSERT_FALSE(whole.outcome.error) << whole.outcome.body.substr(0, 900);

@@ -1,5 +1,4 @@
-// What a job will take of CPU: said before it is known, by the request alone. bench/estimates holds
-// it against what jobs take.
+// Estimates the CPU of a job from only its request. bench/estimates compares it with measured CPU.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +22,7 @@ Json bevels(double each) {
   return Json{std::move(out)};
 }
 
-/// Stopped where so many stages are behind it.
+/// Cancelled after this number of stages.
 Posted stopped(const std::string& endpoint, const std::string& body, int stages) {
   std::stop_source source;
   int laps = 0;
@@ -48,8 +47,8 @@ Posted stopped(const std::string& endpoint, const std::string& body, int stages)
   return out;
 }
 
-/// By a job that is stopped before it is begun, which has the estimate already; what is of a node
-/// is to be resolved first.
+/// Takes the estimate from a job that is cancelled before it begins, which already has it; a node
+/// must be resolved first.
 double estimate(const std::string& endpoint, const Json& body) {
   const auto late = stopped(endpoint, api::dump(body), 2);
   EXPECT_EQ(text(late.body, "code"), "over_budget") << endpoint << ": " << late.outcome.body;
@@ -74,7 +73,7 @@ TEST(Estimate, ComesWithValidateOnlyAlone) {
     }
 }
 
-/// A request, where it is changed, to what, and how many times as much that is at least.
+/// A request, the field to change, its new value, and the minimum factor of the estimate.
 struct Growth {
   const char* example;
   const char* path;
@@ -139,7 +138,7 @@ TEST(Estimate, GrowsWithWhatIsAskedFor) {
 
 TEST(Estimate, OfAJobOverItsBudgetIsInTheProblem) {
   for (const auto& endpoint : api::endpoints()) {
-    int told = 0;  // a node may not be resolved yet: then it is not known what there is to do
+    int told = 0;  // a node may not be resolved yet, so the work is not known yet
     for (const auto& example : api::examples()) {
       if (example.endpoint != endpoint.id || told > 0) continue;
       const std::string body(example.body);

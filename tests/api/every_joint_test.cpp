@@ -1,6 +1,6 @@
 // One generator of joints feeds the three endpoints that take centre-lines: of every kind, drawn
-// from either end of either tube, with coordinates as programs write them. What each answers lies
-// in the world on the surfaces that are stated, measured in long double from what was sent.
+// from either end of either tube, with coordinates as programs write them. Each answer lies in the
+// world on the stated surfaces, measured in long double from the request.
 
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ struct Placed {
   }
 };
 
-/// The worst of one joint by one endpoint: how far its cuts lie off what is stated.
+/// The worst of one joint by one endpoint: distance of its cuts from the statement.
 struct Measured {
   const Model& model;
   Real off = 0;
@@ -164,7 +164,7 @@ void measure_node(const Json& answer, Measured& out) {
   out.close();
 }
 
-/// A part's answer, which lies in the world as `frame` says.
+/// Measures a part's answer, positioned in the world by `frame`.
 void measure_part(const Json& part, const Json& frame, std::size_t tube, Measured& out) {
   const Placed placed(frame);
   const auto& own = out.model.tubes[tube];
@@ -190,7 +190,7 @@ bool is_ours(const Posted& answer) {
          static_cast<int>(*answer.outcome.error) >= static_cast<int>(ErrorKind::overloaded);
 }
 
-/// What a shop has to look at; notes, as on the sampling, are each answer's own.
+/// Codes that a shop has to check; notes, as on the sampling, belong to each answer.
 std::set<std::string> codes(const Json& answer) {
   std::set<std::string> out;
   for (const auto& one : *at(answer, "warnings").as<Json::Array>())
@@ -198,7 +198,7 @@ std::set<std::string> codes(const Json& answer) {
   return out;
 }
 
-/// Every reason points into what was asked.
+/// Every reason has a pointer into the request.
 void expect_inside(const Posted& answer, const Json& request) {
   const char* list = answer.outcome.error ? "errors" : "warnings";
   for (const auto& one : *at(answer.body, list).as<Json::Array>()) {
@@ -209,7 +209,7 @@ void expect_inside(const Posted& answer, const Json& request) {
   }
 }
 
-/// What frames says of one member: its part, or the code of the problem.
+/// One member in the answer of frames: its part, or the code of the problem.
 struct FramePart {
   const Json* answer = nullptr;
   const Json* frame = nullptr;
@@ -246,7 +246,7 @@ std::string told(Kind kind, Written written, std::size_t ends) {
          std::to_string(static_cast<int>(written)) + ", ends " + std::to_string(ends);
 }
 
-/// One model to the three; what they make of each tube is the same.
+/// Sends one model to the three endpoints; their results for each tube are the same.
 void ask(const Model& model, Random& random, Tally& tally) {
   const auto nodes = nodes_request(model, random);
   const auto of_nodes = post("/v1/nodes", nodes);
@@ -279,7 +279,7 @@ void ask(const Model& model, Random& random, Tally& tally) {
     measure_part(*in_frame.answer, *in_frame.frame, i, frame);
     EXPECT_EQ(text(of_part.body, "verdict/status") == "reject",
               text(of_frames.body, "verdict/status") == "reject");
-    // What is said of the part alone is said of it in the frame too.
+    // Warnings of the single part are also in the frame.
     const auto alone = codes(of_part.body), beside = codes(of_frames.body);
     EXPECT_TRUE(std::ranges::includes(beside, alone))
         << api::dump(at(of_part.body, "warnings")) << api::dump(at(of_frames.body, "warnings"));

@@ -1,5 +1,5 @@
-// Joints as users draw them every day, of tubes as they are sold: what is refused must be
-// impossible by an oracle that knows nothing of the code (rays against cylinders, in long double).
+// Joints as users draw them every day, of catalogue tubes: a refused request must be impossible by
+// an independent oracle (rays against cylinders, in long double).
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ using Vec = std::array<double, 3>;
 constexpr std::uint64_t kSeed = 20261122;
 constexpr double kDeg = 0.017453292519943295;
 
-/// The share of the 830 that is asked: all with TUBECUT_EVERYDAY=1.
+/// Fraction of the 830 that is sent: all with TUBECUT_EVERYDAY=1.
 int share(int whole) {
   const char* all = std::getenv("TUBECUT_EVERYDAY");  // NOLINT(concurrency-mt-unsafe)
   return all != nullptr ? whole : (whole + 9) / 10;
@@ -102,7 +102,7 @@ Json member(const Tube& t) {
   return out;
 }
 
-/// An everyday way to cut: the root inside, grooves as procedures ask for them.
+/// Everyday options of a cut: the root inside, grooves as in procedures.
 Json cut_options(Random& r) {
   static constexpr std::array kGrooves{R"({"rule": "half_dihedral"})", R"({"rule": "none"})",
                                        R"({"rule": "fixed", "angle_deg": 30})"};
@@ -146,7 +146,7 @@ Case part_of(std::string kind, Random& r, std::vector<Tube> tubes, std::vector<s
           std::move(tubes), std::move(start), std::move(finish)};
 }
 
-/// A brace between two chords, in most trusses with another one beside its foot that cuts it.
+/// A brace between two chords; in most trusses another one next to its foot cuts it.
 Case truss(Random& r) {
   const auto [chord, brace] = r.two_of(kHollow);
   const double deep = r.any(6, 14) * chord.diameter, foot = r.any(-0.25, 0.25) * chord.diameter;
@@ -171,7 +171,7 @@ Case truss(Random& r) {
   return part_of("truss", r, std::move(t), std::move(start), {2});
 }
 
-/// A top, down or stay tube between two tubes of a frame that stand nearly across it.
+/// A top, down or stay tube between two tubes of a frame that are nearly square to it.
 Case bicycle(Random& r) {
   static constexpr std::array<Size, 6> kOwn{
       {{28.6, 0.9}, {31.8, 0.9}, {34.9, 0.9}, {22.2, 0.8}, {16.0, 0.8}, {25.4, 0.9}}};
@@ -298,7 +298,7 @@ std::vector<ray::Body> bodies(const Case& c, bool finish) {
   return out;
 }
 
-/// What makes an end impossible to cut with its root on the inner wall, if anything does.
+/// Returns the reason why an end cannot be cut with its root on the inner wall, or an empty text.
 std::string impossible(const Case& c, bool finish) {
   const auto partners = bodies(c, finish);
   if (partners.empty()) return "";
@@ -319,7 +319,7 @@ std::string impossible(const Case& c, bool finish) {
   return "";
 }
 
-/// What makes a hole impossible.
+/// Returns the reason why a hole is impossible.
 std::string impossible_hole(const Json& request) {
   const bool on = text(request, "joint/kind") == "set_on";
   const Real chord = number(request, "chord/outer_diameter_mm") / 2;

@@ -154,7 +154,7 @@ TEST(FeedCurves, CsvHasEveryRowOfTheTableAndOfTheCycle) {
 }
 
 TEST(FeedCurves, TargetRateAsInTheTheory) {
-  // 120 pieces per hour asked of the 194 mm machine, limits and handling assumed: 135 come.
+  // 120 pieces per hour requested of the 194 mm machine, limits and handling assumed: 135 are made.
   const auto answer = post(kPath, example_of("cut-off-194-mm-whole-cycle"));
   EXPECT_NEAR(number(answer.body, "result/cycle/cycle_s"), 26.60, 0.005);
   EXPECT_EQ(std::floor(number(answer.body, "result/cycle/pieces_per_hour")), 135.0);
@@ -180,7 +180,7 @@ TEST(FeedCurves, ATargetThatIsMissedIsReviewed) {
   const auto told = warned(missed, "target_missed");
   ASSERT_EQ(told.size(), 1U);
   EXPECT_TRUE(told[0].starts_with("/cycle/target_per_hour 135")) << told[0];
-  // What it says would make the target does.
+  // The proposed feed reaches the target.
   const double feed = number(missed.body, "result/cycle/feed_for_target_mm_s");
   auto again = with(body, "cycle/target_per_hour", 150.0);
   again = with(again, "cut/feed_mm_s", feed * 1.0001);

@@ -198,8 +198,7 @@ TEST(Formats, DrawingsEndWhereTheyAreTo) {
   EXPECT_GT(api::tiles(drawing, labels, api::Paper::a4, {}, {}).size(), 1U);
 }
 
-/// What is drawn on a sheet of a job that is over is drawn no more: a work order of 20 000 points
-/// took 42 ms to lay out.
+/// A cancelled job draws no more: a work order of 20 000 points took 42 ms to lay out.
 TEST(Formats, NothingIsDrawnForAJobThatIsOver) {
   std::stop_source over;
   api::Canvas sheet(500.0, 500.0, over.get_token());

@@ -1,5 +1,5 @@
-// Both sides of a frame's joints, from what its answer says: edges put into the world and measured
-// there in long double, from the members' centre-lines alone. Nothing here is core's.
+// Both sides of a frame's joints, from its answer: edges put into the world and measured there in
+// long double, only from the members' centre-lines, without any code of core.
 
 #include <gtest/gtest.h>
 
@@ -57,13 +57,13 @@ struct Random {
   }
 };
 
-/// A chord and a branch, or two of a size that end near one point, and what is said of them.
+/// A chord and a branch, or two of a size that end near one point, and their statement.
 struct Pair {
   Tube chord, branch;
   std::string kind;
   Real gap = 0, depth = 0;
   bool within = false;
-  std::string plane = {};  // of a mitre; empty: not said
+  std::string plane = {};  // of a mitre; empty: not given
 };
 
 Pair random_pair(Random& random, const std::string& kind) {
@@ -106,7 +106,7 @@ Json numbers_of(const Point& p) {
   for (const Real v : p) out.emplace_back(static_cast<double>(v));
   return Json{std::move(out)};
 }
-/// Said in any order, of the two in any order.
+/// Members and statements in any order.
 Json request_of(const Pair& pair, bool swapped) {
   const auto member = [](const char* id, const Tube& t, double priority) {
     return Json{Json::Object{{"id", Json{id}},
@@ -254,7 +254,7 @@ INSTANTIATE_TEST_SUITE_P(EveryKind, FrameJoint, ::testing::Values("set_on", "set
 
 class FrameFaces : public ::testing::TestWithParam<const char*> {};
 
-// Both faces are planes, parallel, the gap apart, and lean alike to both tubes.
+// Both faces are planes, parallel, at the distance of the gap, and tilt equally to both tubes.
 TEST_P(FrameFaces, LieTheGapApart) {
   Random random;
   Real off = 0, lean = 0;
@@ -321,8 +321,8 @@ TEST(FrameCorners, LieInBothFaces) {
     if (number(answer.body, "result/totals/made") < 2.0) continue;
     ++made;
     EXPECT_EQ(text(answer.body, "result/joints/0/plane"), "corner_to_corner");
-    // Where the outlines cross, from the axes' crossing: r / sin of what the corner leans to
-    // either.
+    // Where the outlines cross, from the axes' crossing: r / sin of the angle between the corner
+    // and each tube.
     const auto& c = pair.chord;
     const Point at_c = c.start, x = unit(c.finish - c.start);
     const bool leaves = norm(b.finish - at_c) > norm(b.start - at_c);

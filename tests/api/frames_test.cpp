@@ -56,7 +56,7 @@ const Json& of_id(const Json& body, std::string_view path, std::string_view fiel
   throw std::runtime_error("none is " + std::string(id));
 }
 
-// What stands in a frame's answer is what /v1/parts answers to the request in it, byte by byte.
+// Each part in a frame's answer is the answer of /v1/parts to the request in it, byte by byte.
 TEST(Frames, EveryPartIsTheAnswerToItsOwnRequest) {
   std::size_t parts = 0;
   for (const auto& [name, request] : all_examples()) {
@@ -136,7 +136,7 @@ Json moved(const Json& request, double deg, double dx) {
   return out;
 }
 
-// A part is the same wherever its frame stands, and is known as such by its hash.
+// A part is the same at any position of its frame, and has the same hash.
 TEST(Frames, PartsDoNotDependOnWhereTheFrameStands) {
   const auto request = example("frames/truss-of-19.json");
   const auto here = asked(request);
@@ -151,7 +151,7 @@ TEST(Frames, PartsDoNotDependOnWhereTheFrameStands) {
   }
 }
 
-// By frame and by node: the same points, so far as the numbers are written.
+// By frame and by node: the same points, to the printed digits.
 TEST(Frames, AMemberIsThatOfItsNode) {
   const auto node = example("parts/chord-with-holes.json");
   Json::Array members;
@@ -170,7 +170,7 @@ TEST(Frames, AMemberIsThatOfItsNode) {
   const auto stub = post("/v1/parts", example("parts/set-in-branch.json"));
   const auto same = [](const Json& a, const Json& b, const std::string& column) {
     const auto p = numbers(a, "answer/" + column), q = numbers(b, column);
-    // The rows may begin at another phi; how far the cut reaches is told by none of them.
+    // The rows may begin at another phi, so no row contains the extreme of the cut.
     const auto [low, high] = std::ranges::minmax(p);
     const auto [least, most] = std::ranges::minmax(q);
     EXPECT_NEAR(high - low, most - least, 0.01) << column;
@@ -193,8 +193,8 @@ TEST(Frames, AMemberIsThatOfItsNode) {
   }
 }
 
-// One set-in joint, two cuts: said apart they differed by 12.9 mm, both `ok`. Here the end lies
-// where its hole's joint says.
+// One set-in joint, two cuts: stated separately they differed by 12.9 mm, both `ok`. Here the end
+// lies on its hole's joint.
 TEST(Frames, BothSidesOfAJointAreOfOneStatement) {
   for (const char* depth : {"", R"(, "depth_mm": 8)"}) {
     auto request = example("frames/jacket-node-with-set-in-stubs.json");
@@ -245,7 +245,7 @@ TEST(Frames, WhatIsNotCutIsTold) {
   EXPECT_EQ(others, 2U);
 }
 
-// One that cannot be cut is named, with its request and why; the others stand.
+// If a part cannot be cut, it is named, with its request and the reason; the others are valid.
 TEST(Frames, AMemberThatCannotBeCutSpoilsNoOther) {
   auto request = example("frames/truss-of-19.json");
   request = with(request, "members/2/outer_diameter_mm", Json{120.0});
@@ -261,8 +261,8 @@ TEST(Frames, AMemberThatCannotBeCutSpoilsNoOther) {
   EXPECT_EQ(text(of_id(frame.body, "warnings", "code", "no_part"), "pointer"), "/members/2");
 }
 
-// So nearly parallel that the axes meet beyond what a part may be told: the part is refused, not
-// the proof failed on what was read of it.
+// So nearly parallel that the axes meet beyond the range of a part: the part is refused, but the
+// verification does not fail.
 TEST(Frames, AJointTooFarAwayForAPartSpoilsNoProof) {
   const auto request = *api::parse(R"({"members": [
     {"id": "a", "start_mm": [-900.3564, -499.9965, 949.7226], "end_mm": [-900.0063, 500.308, 949.99715],
@@ -312,7 +312,7 @@ const Json& request_of(const Json& frame, std::string_view part) {
   return at(of_id(frame, "parts", "part", part), "answer/request");
 }
 
-// What an end says of itself goes before its joint and the defaults, there alone.
+// The values of an end override its joint and the defaults, only there.
 TEST(Frames, AnEndIsCutAsItSays) {
   auto spool = example("frames/pipe-spool.json");
   const auto own = *api::parse(R"([
@@ -357,8 +357,7 @@ TEST(Frames, EndsAreChecked) {
             "bad_choice /ends/0/smoothing/method");
 }
 
-// Every end and hole of every part is cut square; what would tilt the head is refused where it
-// stands.
+// Every end and hole of every part is cut square; a field that would tilt the head is refused.
 TEST(Frames, ATubeLaserTiltsNothing) {
   const auto rack = example("frames/rack-by-tube-laser.json");
   const auto frame = asked(rack);

@@ -257,7 +257,7 @@ TEST(InLine, WhatEndsBeforeTheCutDoesNotCut) {
     branch.wall = branch.diameter * 0.08L;
     const Point w = random.direction(), z = random.leaning(w, random.between(55, 125));
     run.finish = run.start + 2500 * w;
-    // The branch stands on the run, prolonged, before its start, within reach of that.
+    // The branch is set on the run, prolonged before its start, within reach.
     const Real before = random.between(-1, 1) * run.diameter / 2;
     branch.start = run.start - before * w + (0.2L * run.diameter) * unit(z - dot(z, w) * w);
     branch.finish = branch.start + 1800 * z;

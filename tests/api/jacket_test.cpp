@@ -213,7 +213,7 @@ TEST(FieldInputs, TubeThatEndsBeforeTheCutCutsNothing) {
   EXPECT_TRUE(warned(answer.body, "free_end"));
 }
 
-// Stated, the joint stands, and says at the part and in its row that the partner is missing.
+// If the joint is stated, it is kept, and the part and its row report that the partner is missing.
 TEST(FieldInputs, StatedJointWithoutItsPartnerIsForReview) {
   auto request = field("cut_by_a_tube_181_mm_away.json");
   request =
@@ -243,7 +243,7 @@ TEST(Frames, MemberOutOfRangeAloneHasNoPart) {
     EXPECT_EQ(text(parts.at(2), "problem/errors/0/pointer"), "/" + std::string(path));
     for (const auto& one : outside(answer.body)) ADD_FAILURE() << one;
   }
-  // Where none is in range, the request is refused as ever: in metres, say.
+  // If all are out of range, the request is refused as before, for example in metres.
   auto request = field("cambered_chord_1_deg.json");
   for (const auto* i : {"0", "1", "2"})
     request = with(request, "members/" + std::string(i) + "/outer_diameter_mm", Json{0.1683});

@@ -1,6 +1,6 @@
 // The classes of JSONTestSuite (Nicolas Seriot, "Parsing JSON is a minefield"), its texts written
-// out by hand: what every parser must accept, what none may, and what RFC 8259 leaves open, decided
-// here.
+// out by hand: those that every parser must accept, those that it must refuse, and those that RFC
+// 8259 leaves open, decided here.
 
 #include <gtest/gtest.h>
 
@@ -327,8 +327,8 @@ constexpr Undecided kUndecided[] = {
     {"\357\273\277{}", "byte order mark"},
 };
 
-/// The suite accepts these; we refuse them and say why. The last of two equal keys would win in
-/// silence.
+/// The suite accepts these, but we refuse them with a reason, because otherwise the last of two
+/// equal keys would win without a message.
 constexpr Undecided kStricter[] = {
     {"{\"a\":\"b\",\"a\":\"c\"}", "duplicate key"},
     {"{\"a\":\"b\",\"a\":\"b\"}", "duplicate key"},

@@ -59,8 +59,8 @@ TEST(Json, RefusesWithTheByteOffset) {
   EXPECT_EQ(parse("[1,\n x]").error().offset, 5u);
 }
 
-// A place for each is found before the most of them are read: what grows by halves is moved as a
-// whole, in a time that grows with it.
+// Memory for long containers is reserved before most of it is read, because growth by doubling
+// would move it as a whole, in a time that grows with it.
 TEST(Json, HasAPlaceForWhatIsLongBeforeItIsRead) {
   const auto repeated = [](std::string_view element, int count) {
     std::string out;
@@ -110,8 +110,8 @@ TEST(Json, HasAPlaceForWhatIsLongAtEveryDepth) {
   }
 }
 
-/// Bytes of which two pages tell when they are read again, after all were looked through for NUL:
-/// the first requests a stop then.
+/// Bytes of which two pages notice when they are read again, after the scan for NUL: the first
+/// requests a stop then.
 class WatchedBytes {
  public:
   WatchedBytes(const std::string& bytes, std::size_t stops_at, std::size_t seen_at)
@@ -280,7 +280,7 @@ TEST(Writer, ColumnsAreTheSameInOnePieceAndInMany) {
                Writer::NotFinite);
 }
 
-/// RFC 8949: the shortest head of every length, whatever stands beside it.
+/// RFC 8949: the shortest head of every length, with any content.
 TEST(Cbor, HeadsAreTheShortest) {
   for (const std::size_t n : {0, 23, 24, 255, 256, 65'535, 65'536}) {
     Writer out(0, {}, Encoding::cbor);

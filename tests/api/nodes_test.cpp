@@ -73,7 +73,7 @@ TEST(Nodes, KJointFromCentreLines) {
   EXPECT_EQ(at(end_of(answer, 4), "profiles").as<Json::Array>()->size(), 2U);
 }
 
-// C1 is 219.1 mm thick, B1's end 40 mm along it and 12 mm beside its axis; within 50 mm both join.
+// C1 is 219.1 mm thick, B1's end 40 mm along it and 12 mm from its axis; within 50 mm both join.
 TEST(Nodes, AFreeEndIsSaidWhereAMemberIsNear) {
   const auto moved = [](double up) {
     return post(kNodes, with(example("nodes/k-joint-from-centre-lines.json"), "members/1/start_mm",
@@ -158,7 +158,7 @@ Json with_tables(const Json& request) {
   return with(with(request, "include", Json{Json::Array{"tables"}}), "tables", options);
 }
 
-// The table inside a node's answer is the one the same end gets alone.
+// The table inside a node's answer equals that of the same end by itself.
 TEST(Nodes, TablesOfEveryEnd) {
   const auto one = example("bevel-tables/k-joint-from-centre-lines.json");
   const auto alone = post(kTables, one);
@@ -234,7 +234,7 @@ TEST(Nodes, AMitreAskedForIsAMitre) {
     EXPECT_EQ(end_of(answer, end).find("cut_by")->as<Json::Array>()->at(0).find("placement"),
               nullptr);
     EXPECT_EQ(text(end_of(answer, end), "cut_by/0/joint/kind"), "mitre");
-    // The rail rises by atan 1/3 from the leg's square: the plane leans by half of what is left.
+    // The rail rises by atan 1/3 from the leg's square: the plane tilts by half of the rest.
     EXPECT_NEAR(number(end_of(answer, end), "cut_by/0/plane/normal/2"),
                 std::sin(0.5 * (std::acos(-1.0) / 2 + std::atan(1.0 / 3))), 1e-12);
   }
@@ -254,7 +254,7 @@ TEST(Nodes, MembersThatShareMetalAreSaidWithHowDeepAndWhere) {
   EXPECT_EQ(text(answer.body, "result/overlaps/0/between/1"), "again");
   EXPECT_NEAR(number(answer.body, "result/overlaps/0/depth_mm"), 5.0, 1e-6);
   EXPECT_EQ(text(answer.body, "verdict/status"), "review");
-  // The end of one member, asked for alone, says it too.
+  // A request for only the end of one member reports it too.
   Json end{Json::Object{{"members", at(request, "members")},
                         {"connect", at(request, "connect")},
                         {"member", Json{"B"}},

@@ -63,7 +63,7 @@ TEST(Partners, EveryFieldIsChecked) {
   EXPECT_EQ(refusal(bend("bend_deg", 181.0), "/cutters/0/bend_deg"), "out_of_range");
 }
 
-// The support stands on the bend along its run, on the axis: on the back of the torus.
+// The support is set on the bend along its run, on the axis: on the back of the torus.
 TEST(Partners, AnElbowCarriesALegAlongItsRun) {
   const auto request =
       *api::parse(read_project_file("tests/field/dummy-leg-on-elbow.intersection.json"));

@@ -68,8 +68,8 @@ Json contour_of(const Json& part, const std::string& end, double diameter, doubl
                            {"closed", Json{true}}}};
 }
 
-// Both ends go unchanged into a schedule as contours; the lead lies in what falls away, at the
-// finish on the side of +z.
+// Both ends go unchanged into a schedule as contours; the lead lies in the scrap, at the finish on
+// the side of +z.
 TEST(Parts, EndsAreContoursOfSchedules) {
   const auto part = post(kPath, brace());
   ASSERT_FALSE(part.outcome.error);
@@ -161,8 +161,8 @@ TEST(Parts, HolesAreThoseOfTheirOwnEndpoint) {
   EXPECT_NEAR(number(*b1, "girth_mm"), 0.0, 1e-9);
 }
 
-// The branch of the chord's set-in hole as a part of its own: its inner edge lies on the chord's
-// bore (it stood on the outer surface, up to 12.9 mm off). C1 runs along the world's x axis.
+// The branch of the chord's set-in hole as a separate part: its inner edge lies on the chord's bore
+// (it was on the outer surface, up to 12.9 mm off). C1 runs along the world's x axis.
 TEST(Parts, ASetInBranchReachesTheBoreOfItsHole) {
   const auto part = post(kPath, set_in());
   ASSERT_FALSE(part.outcome.error) << part.outcome.body.substr(0, 800);
@@ -211,7 +211,7 @@ TEST(Parts, AllowancesAndDensity) {
   request = with(request, "density_kg_m3", 2700.0);
   const auto one = post(kPath, table_1());
   const auto two = post(kPath, request);
-  EXPECT_EQ(number(one.body, "request/density_kg_m3"), 7850.0);  // the default is told
+  EXPECT_EQ(number(one.body, "request/density_kg_m3"), 7850.0);  // the default is echoed
   EXPECT_NEAR(number(two.body, "result/lengths/blank_mm"),
               number(one.body, "result/lengths/blank_mm") + 7.0, 1e-9);
   EXPECT_NEAR(number(two.body, "result/lengths/mass_kg") / 2700,
@@ -248,14 +248,15 @@ TEST(Parts, OneJointIsSaidInOneWay) {
             "out_of_range");
   auto on = with(with(set_in(), "member", "B1"), "root_gap_mm", 1.0);
   EXPECT_EQ(refusal(on, "/root_gap_mm"), "joint_contradicts");
-  // What only one of the two calls would do is said.
+  // If only one of the two calls would apply it, the answer reports it.
   auto unsaid = with(without(c, "members/2/joints"), "holes/1/joint", same);
   EXPECT_TRUE(warned(post(kPath, unsaid), "joint_not_stated", "/holes/1/joint"));
   auto missing = with(c, "holes", Json{Json::Array{at(c, "holes/0")}});
   EXPECT_TRUE(warned(post(kPath, missing), "hole_missing", "/members/2"));
 }
 
-/// One end of a member of this request's node, given by itself: cutter and joint as /v1/nodes says.
+/// One end of a member of this request's node, given directly: cutter and joint as in the answer of
+/// /v1/nodes.
 Json direct(const Json& request, std::string_view member) {
   const auto nodes = post("/v1/nodes", Json{Json::Object{{"members", at(request, "members")},
                                                          {"connect", at(request, "connect")}}});
@@ -414,7 +415,7 @@ TEST(Parts, WhatCannotBeCutNamesTheField) {
             "torch_range");
 }
 
-// A square end's kerf lies wholly beyond it: the blank is longer by what the kerf is wider.
+// A square end's kerf lies wholly beyond it: the blank is longer by the additional kerf.
 TEST(Parts, AnEndHasAKerfOfItsOwn) {
   auto request =
       *api::parse(R"({"target": {"outer_diameter_mm": 60.3, "wall_mm": 4, "length_mm": 500},

@@ -52,7 +52,7 @@ Json hermite(Json points, double limit = 10.0) {
                  {"transition_points", std::move(points)}});
 }
 
-/// What a problem says of its first field.
+/// Expected first field of a problem.
 struct Expected {
   std::string code;
   std::string pointer;
@@ -98,7 +98,7 @@ std::string sha256_hex(std::string_view bytes) {
   return out;
 }
 
-// ---- what cannot be cut
+// ---- impossible cuts
 
 TEST(Problems, OpenProfileNamesItsIntervals) {
   for (const auto* path : {kBevel, kCut}) {
@@ -106,7 +106,7 @@ TEST(Problems, OpenProfileNamesItsIntervals) {
     const auto answer = post(path, with(request, "cutters", list({tube(60.0, 0.0, 40.0)})));
     expect_problem(answer, {"open_profile", "/cutters"});
     // |30 cos phi| beyond the partner's radius of 20: around phi = 0 and 180 deg.
-    const double border = 48.18968510422141;  // acos(20 / 30): the inner surface is asked first
+    const double border = 48.18968510422141;  // acos(20 / 30): the inner surface is computed first
     const auto& intervals = *at(answer.body, "errors/0/got").as<Array>();
     ASSERT_EQ(intervals.size(), 2u);
     EXPECT_NEAR(number(intervals[0], "0"), 180.0 - border, 1e-9);
@@ -168,8 +168,8 @@ TEST(Problems, MemberConsumed) {
                  {"member_consumed", "/target/length_mm"});
 }
 
-// No request within the limits was found that needs 100 000 nodes (37 052 at most), so core is
-// asked with fewer allowed.
+// We found no request within the limits that needs 100 000 nodes (37 052 at most), so this calls
+// core with a lower limit.
 TEST(Problems, TooManyNodes) {
   const joint::IntersectionSpec spec{
       .target = {.outer_radius = 35.0, .wall = 5.0},
@@ -182,7 +182,7 @@ TEST(Problems, TooManyNodes) {
   EXPECT_EQ(answer.error().issues.front().limit, Shown{50.0});
 }
 
-/// A wide kerf allows fewer points; who asks for as many as the refusal names is answered.
+/// A wide kerf allows fewer points; a request with the number in the refusal is answered.
 TEST(Problems, TooManyNodesForTheKerfNamesHowMany) {
   const auto points = [](double count) {
     return with(with(table_1(), "kerf_mm", 20.0), "sampling", object({{"uniform_points", count}}));
@@ -212,8 +212,8 @@ TEST(Problems, PublishedSmoothing) {
 }
 
 TEST(Problems, PublishedSmoothingMayEnterAPartner) {
-  // A thin wall and a flush groove: what keeps partners out is all there is, and a long window
-  // falls below it.
+  // A thin wall and a flush groove: only the clearance of partners remains, and a long window falls
+  // below it.
   auto request = with(table_1(), "groove", object({{"rule", "none"}}));
   request = with(with(request, "target/wall_mm", 3.0), "smoothing", hermite(30.0, 5.0));
   const auto answer = post(kBevel, request);

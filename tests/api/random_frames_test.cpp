@@ -1,6 +1,6 @@
 // Whole frames with every kind of joint, drawn from either end of each tube and written with
-// coordinates rounded to 0.01 to 1 mm: each is answered, each reason points into what was asked,
-// and there is a part for every member that rays in long double find cuttable.
+// coordinates rounded to 0.01 to 1 mm: each is answered, each reason has a pointer into the
+// request, and there is a part for every member that rays in long double find cuttable.
 
 #include <gtest/gtest.h>
 
@@ -74,7 +74,7 @@ class Grown {
         out.emplace_back("normal", numbers_of(unit(along + Real{0.4L} * side)));
         return Json{std::move(out)};
       }
-      // Its run goes down along the tube as it was meant; the tube stands by its written ends.
+      // Its run goes down along the intended tube; the tube has its written ends.
       out.emplace_back("outer_diameter_mm", number_of(2 * radius));
       out.emplace_back("bend_radius_mm", number_of(bend_radius));
       out.emplace_back("bend_deg", Json{90.0});
@@ -144,7 +144,7 @@ class Grown {
                        .side = unit(cross(random_.direction(), model_.tubes[tube].into(true)))});
   }
 
-  /// A leg on a bend, along its run, somewhere beside.
+  /// Adds a leg on a bend, along its run, at a random offset.
   void add_support() {
     Tube leg;
     leg.radius = random_.between(20, 60);
@@ -214,8 +214,8 @@ Real top(const Tube& tube, bool last, Real radius, Real phi, const Tube& by) {
   return (-b + std::sqrt(b * b - a * c)) / a;
 }
 
-/// Can the end of a branch be cut to stand on its chord: does every generator of its wall meet it,
-/// within the tube, and no line of the cut lean by more than 80 deg?
+/// Returns whether the end of a branch can be cut to fit its chord: every generator of its wall
+/// meets it, within the tube, and no line of the cut tilts by more than 80 deg.
 bool cuttable(const Tube& branch, bool last, const Tube& chord) {
   const Real length = norm(branch.finish - branch.start);
   for (int k = 0; k < 72; ++k) {

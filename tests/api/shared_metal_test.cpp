@@ -11,7 +11,7 @@ Json field(std::string_view file) {
   return *api::parse(read_project_file("tests/field/" + std::string(file)));
 }
 
-/// How often members are said to share metal.
+/// Number of warnings that members share metal.
 std::size_t told(const Posted& answer) {
   EXPECT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
   std::size_t out = 0;
@@ -58,7 +58,7 @@ Json cut_by_a_plate(double x) {
           {"between", Json{Json::Array{"a", "plate"}}}, {"kind", "set_on"}, {"end", "finish"}}}}});
 }
 
-// What one of the others cuts off is not there.
+// Metal that another member cuts off does not count.
 TEST(SharedMetal, EndsAreWhereTheOthersCutThem) {
   EXPECT_EQ(told(post("/v1/frames", cut_by_a_plate(450))), 0U);
   EXPECT_EQ(told(post("/v1/frames", cut_by_a_plate(421.5))), 0U);

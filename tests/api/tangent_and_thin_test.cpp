@@ -77,7 +77,7 @@ Json curves(const Json& target, const Json::Array& cutters) {
   return Json{Json::Object{{"target", target}, {"cutters", Json{cutters}}}};
 }
 
-/// How requests were answered; none may be withheld.
+/// Counts of outcomes; no answer may be withheld.
 struct Answers {
   std::map<std::string, int> count;
 
@@ -283,7 +283,7 @@ TEST(ThickWall, AndThinPlatesGoThroughCurvesTablesAndParts) {
     const Json::Array cutters{plane(-0.5 * diameter, x, y), plate};
     const auto how = cut(draw);
     good += answers.good("/v1/intersections", curves(tube, cutters)) ? 1 : 0;
-    if (round % 10 != 0) continue;  // what is bevelled through solid bars takes time
+    if (round % 10 != 0) continue;  // bevels through solid bars take time
     good += answers.good("/v1/bevel-tables", table(tube, cutters, how)) ? 1 : 0;
     if (round % 20 != 0) continue;
     auto start = how, finish = how;

@@ -1,4 +1,4 @@
-// What a text may hold, and how formats of ASCII spell it.
+// The permitted characters of a text, and its spelling in ASCII formats.
 
 #include "api/wire/text_encoding.hpp"
 

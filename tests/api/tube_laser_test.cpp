@@ -38,7 +38,8 @@ TEST(TubeLaser, TheEchoStatesEveryChoiceAndIsTheSameJob) {
   EXPECT_EQ(text(part.body, "request/ends/finish/groove/rule"), "square");
 }
 
-// Said in full and without the preset the same cut comes out; only what the preset measures lacks.
+// Written in full and without the preset, the same cut results; only the preset's measurements are
+// missing.
 TEST(TubeLaser, IsTheCutThatItsFieldsSpellOut) {
   const auto preset = post(kTables, branch());
   auto body = without(without(at(preset.body, "request"), "preset"), "accept");
@@ -111,7 +112,7 @@ double measured(const Json& answer, std::string_view name) {
   return number(answer, "result/tube_laser/" + path);
 }
 
-// Each limit holds at what is measured, and is seen to fail a thousandth beyond it.
+// Each limit passes at the measured value and fails a thousandth beyond it.
 TEST(TubeLaser, EveryLimitHoldsAndFails) {
   const auto body = without(chord(), "accept");
   const auto plain = post(kParts, body);
@@ -186,7 +187,7 @@ TEST(TubeLaser, ALimitThatNothingIsMeasuredForIsRefused) {
 }
 
 TEST(TubeLaser, AHoleAcrossTheSeamIsRejected) {
-  // The stub stands at phi 0 of the start: the seam goes there.
+  // The stub is at phi 0 of the start: the seam goes there.
   const auto answer = post(kParts, with(chord(), "seam_deg", Json{0.0}));
   ASSERT_FALSE(answer.outcome.error);
   EXPECT_EQ(number(answer.body, "result/tube_laser/seam_to_hole/girth_mm"), 0.0);

@@ -47,7 +47,7 @@ void at_once(std::size_t count, const Turn& turn) {
   for (auto& other : others) other.join();
 }
 
-/// Asks for many turns at least once, or the rest proves nothing.
+/// Checks that there were many tasks at least once, because otherwise the rest would prove nothing.
 void expect_same(std::string_view path, std::string_view query, const Json& request,
                  std::size_t least_turns) {
   std::size_t most = 0;

@@ -55,7 +55,7 @@ TEST(Verdict, ReasonsAreASet) {
   EXPECT_EQ(verdict.warnings.size(), 4U) << "each is told";
 }
 
-// A cut that follows a member beyond its end is reviewed by whatever way it is asked for.
+// A cut that follows a member beyond its end is for review by every way to request it.
 TEST(Verdict, AGhostIsNamedByEveryWay) {
   const auto member = *api::parse(R"([
     {"id": "stub", "start_mm": [0, 0, 0], "end_mm": [5, 0, 0], "outer_diameter_mm": 120, "wall_mm": 5},

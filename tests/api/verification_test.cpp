@@ -159,7 +159,7 @@ joint::IntersectionSpec fixed_cut(int kind) {
   return out;
 }
 
-/// Corrupts by ten times the limit and sees that check, and it alone if `alone`, fail.
+/// Corrupts by ten times the limit and checks that this check fails, and only this one if `alone`.
 void expect_seen(const joint::IntersectionSpec& spec, const joint::Intersection& good,
                  const std::string& name,
                  const std::function<void(joint::Intersection&, double)>& corrupt) {

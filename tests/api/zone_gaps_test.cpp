@@ -40,7 +40,7 @@ Json groove_of(const std::vector<Zone>& zones) {
   return Json{Json::Object{{"rule", Json{"zones"}}, {"zones", Json{std::move(out)}}}};
 }
 
-/// The gap at a dihedral: of its zone, straight over what two zones share.
+/// The gap at a dihedral: that of its zone, linear across the overlap of two zones.
 Real gap_at(const std::vector<Zone>& zones, Real deg) {
   for (std::size_t k = 0; k < zones.size(); ++k) {
     if (k + 1 < zones.size() && deg < zones[k + 1].to && deg >= zones[k].from)
@@ -88,7 +88,7 @@ struct Round {
   }
 };
 
-/// The worst of what a root's distance is off its zone's gap, at rows or between them.
+/// The largest error of a root's distance against its zone's gap, at rows or between them.
 template <class Partner>
 Real missed(const Json& answer, const Partner& partner, const std::vector<Zone>& zones, Real radius,
             bool between) {

@@ -1,4 +1,4 @@
-// What every answer and every problem must be. Each function returns the list of complaints.
+// Requirements of every answer and every problem. Each function returns the list of complaints.
 import {createHash} from 'node:crypto';
 import {member, parseRaw, print, without} from './raw.mjs';
 
@@ -23,7 +23,8 @@ function echoFaults(sent, echo, where = '/request') {
   return Object.entries(sent).flatMap(([name, value]) => echoFaults(value, echo[name], `${where}/${name}`));
 }
 
-// The parts of a frame stand beside its result: each an answer of its own, whose hash is in its row of the cut list.
+// The parts of a frame are next to its result: each is a separate answer, whose hash is in its row
+// of the cut list.
 function partFaults(contract, tree, {parts, result}) {
   const endpoint = {id: 'parts', validResponse: contract.validPart};
   const texts = member(tree, 'parts').items.map((part) => member(part, 'answer'));

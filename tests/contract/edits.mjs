@@ -44,7 +44,8 @@ function alike(a, b) {
   });
 }
 
-// Of branches told apart by a member that may be left out, as {method: minimax} by default: that member, and those only some have.
+// For branches that differ by an optional member, with {method: minimax} as default: that member,
+// and those that only some have.
 function impliedTag(contract, whole) {
   const branches = (whole.oneOf ?? []).map((b) => contract.resolve(b)).filter((b) => b.properties);
   const tag = Object.keys(branches[0]?.properties ?? {}).find((name) => branches.every((b) => b.properties[name] && words(b.properties[name])));
@@ -53,7 +54,8 @@ function impliedTag(contract, whole) {
   return [tag, ...[...names].filter((name) => !branches.every((b) => b.properties[name]))];
 }
 
-// Does a member by its one word tell its branch from others that have no such member, as a preset does? With it or without it, the object is another.
+// Returns whether a member's single value distinguishes its branch from others without such a
+// member, as a preset does. With it or without it, the object is another.
 export const selects = (contract, whole, name) => {
   const branches = (whole.oneOf ?? []).map((b) => contract.resolve(b)).filter((b) => b.properties);
   const has = branches.filter((b) => b.properties[name] && 'const' in b.properties[name] && b.required?.includes(name));
@@ -117,7 +119,8 @@ export function edits(contract, requestSchema, body) {
     if (typeOf(value) === 'object') walkObject(whole, schema, value, path, pointer);
   };
 
-  // Is the object what it is by this member? Without it, it would be of another branch that needs no more, and all that only this one has would be strange.
+  // Returns whether this member determines the object. Without it, the object would be of another
+  // branch with fewer required members, in which all its special members would be unknown.
   const makes = (whole, schema, value, name) => (schema.required ?? []).includes(name) && (whole.oneOf ?? []).map((b) => contract.resolve(b))
     .some((b) => b !== schema && b.properties && !b.properties[name] && alike(b, schema) && (b.required ?? []).every((other) => other in value));
 

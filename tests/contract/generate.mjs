@@ -42,7 +42,8 @@ function object(contract, schema) {
   });
 }
 
-// An arbitrary of the values a schema of the contract describes; `contract.validator` decides what it cannot say.
+// Returns an arbitrary of the values that a schema of the contract describes; `contract.validator`
+// decides the rest.
 export function fromSchema(contract, given) {
   if (given === true) return fc.constantFrom(null, 1, 'text', [1, 2]);
   if (given.not) {  // a request within another has not all that it may have by itself
@@ -116,7 +117,7 @@ const envelope = fc.record({method: fc.constant('envelope'), limits, refine: fc.
 const untreated = fc.record({method: fc.constant('none'), mutation_limit_deg: between(1, 30)}, {requiredKeys: ['method']});
 const hermite = fc.record({method: fc.constant('hermite'), transition_points: fc.integer({min: 4, max: 6}), mutation_limit_deg: between(40, 90)});
 
-// None, or one that a beam can have.
+// No kerf, or one that a beam can have.
 const kerf = fc.oneof({weight: 1, arbitrary: fc.constant(0)}, {weight: 9, arbitrary: between(0.01, 4)});
 
 const groove = fc.oneof(
@@ -136,7 +137,7 @@ const ways = fc.oneof(
 const torch = fc.record({min_deg: between(-89, -80), max_deg: between(80, 89)}, {requiredKeys: []});
 const accept = fc.record({max_root_gap_mm: between(0, 2), max_extra_bevel_deg: between(0, 20), max_b_deg: between(10, 80)}, {requiredKeys: []});
 
-// A chord and a branch that reaches it all round, beside the chord's bore too.
+// A chord and a branch that reaches it all round, also next to the chord's bore.
 const hole = fc.record({
   radius: between(30, 300), wall: between(0.03, 0.15), size: between(0.2, 0.7), branchWall: between(0.06, 0.25), lean: between(45, 135),
   turn: between(-360, 360), aside: between(-0.15, 0.15), along: between(-300, 300), byAxis: fc.boolean(), named: fc.boolean(),
@@ -171,7 +172,7 @@ const passing = fc.record({
   const chord = {id: 'C', start_mm: sum([-20 * radius, along]), end_mm: sum([20 * radius, along]), outer_diameter_mm: 2 * radius,
     wall_mm: Math.max(0.5, wall * radius)};
   return [chord, ...braces.map((b, i) => {
-    // Each has a sector of its own around the chord, so that none lies along another.
+    // Each has its own sector around the chord, so that no brace lies along another.
     const around = (b.around / 2 + 360 * i) / braces.length * pi / 180;
     const side = sum([Math.cos(around), across], [Math.sin(around), up]);
     const lean = b.lean * pi / 180;
@@ -211,7 +212,7 @@ function nearExamples(contract, endpoint) {
 
 const BATCH = 20;  // made at a time: bodies of a schedule are large
 
-// So many values of an arbitrary, made as they are asked for.
+// Yields `count` values of an arbitrary, made on demand.
 export function* drawn(arbitrary, seed, count) {
   for (let done = 0; done < count; done += BATCH) {
     yield* fc.sample(arbitrary, {seed: seed + done, numRuns: Math.min(BATCH, count - done)});
@@ -229,14 +230,14 @@ export function sound(contract, endpoint) {
   return own[endpoint.id] ?? nearExamples(contract, endpoint);
 }
 
-// Cut square by a tube laser: what its preset chooses is said or left out.
+// Cut square by a tube laser: the values of its preset are given or omitted.
 const untilted = joined(fc.record({preset: fc.constant('tube_laser'), kerf_mm: kerf}),
   fc.oneof(fc.constant({}), fc.record({root_surface: fc.constantFrom('inner', 'outer'), contact: fc.constant('none')}), fc.record({contact: fc.constant('auto')})),
   maybe('groove', fc.constantFrom({}, {rule: 'square'})), maybe('smoothing', fc.constantFrom({}, {method: 'none'})), maybe('root_face_mm', fc.constant(0)));
 const laserAccept = fc.record({max_gap_mm: between(0, 5), max_reach_mm: between(0, 300), min_tongue_mm: between(0, 40), max_root_gap_mm: between(0, 2)}, {requiredKeys: []});
 
 const holeAccept = fc.record({max_root_gap_mm: between(0, 2), max_b_deg: between(10, 80)}, {requiredKeys: []});
-// hermite asks for a bare grid.
+// hermite requires a bare grid.
 const tables = fc.record({
   include: fc.constantFrom(['tables'], ['tables', 'profiles']),
   tables: joined(fc.record({groove, kerf_mm: kerf}), fc.oneof(

@@ -45,7 +45,7 @@ try {
   const code = await service.stop();
   report.expect(code === 0, 'service', `it ended with ${code}`);
 }
-// One of each kind first: digits apart, the same words are the same kind.
+// One of each kind first: equal words with other digits are the same kind.
 const kinds = new Map(report.faults.map((fault) => [fault.slice(0, 120).replace(/\d+/g, '#'), fault]));
 for (const fault of [...kinds.values()].slice(0, SHOWN)) console.log(`FAULT ${fault}`);
 console.log(`${service.asked} requests, ${report.faults.length} faults`);

@@ -15,7 +15,7 @@ export class Contract {
     this.validPart = this.validator('#/components/schemas/PartsResponse');
   }
 
-  // What this service has: its endpoints (or the one to look at), and requests that run.
+  // Reads the service's endpoints (or only one), and requests that run.
   async learn(service, only) {
     const {endpoints} = JSON.parse((await service.ask('/v1/version', {method: 'GET'})).text);
     this.served = endpoints.filter(({id}) => !only || id === only).map(({path}) => path);
@@ -37,7 +37,7 @@ export class Contract {
     return this.ajv.compile({$ref: `${ID}${reference}`});
   }
 
-  // What ajv says of a value, [] when it is valid.
+  // Returns ajv's errors for a value, [] if it is valid.
   faults(validate, value) {
     if (validate(value)) return [];
     return validate.errors.map((e) => `${e.instancePath || '/'} ${e.message} ${JSON.stringify(e.params)}`);

@@ -1,4 +1,4 @@
-// The service under test: started on free ports, asked over a few kept-alive connections, stopped.
+// The service under test: started on free ports, called over a few kept-alive connections, stopped.
 import {spawn} from 'node:child_process';
 import http from 'node:http';
 import {createInterface} from 'node:readline';
@@ -37,7 +37,8 @@ export class Service {
     return this.child.exitCode === null && this.child.signalCode === null;
   }
 
-  // {status, headers, body: Buffer, text}. Where others that take their whole budget stand before it, it is told to come again, and does.
+  // {status, headers, body: Buffer, text}. If other requests with long budgets are ahead of it, the
+  // answer is 429 or 503, and this repeats the request.
   async ask(path, options = {}) {
     for (let again = 0; ; again += 1) {
       const reply = await this.askOnce(path, options);

@@ -174,7 +174,7 @@ class Joints(Service):
                   f"C1 (inclination {chord['inclination_deg']:.3f} deg, offset {chord['offset_mm']:.0f} mm",
                   f"B1 ({brace['inclination_deg']:.3f} deg, offset {brace['offset_mm']:.0f} mm)",
                   f"between phi {first} and {last} deg of B1 up to {float(lost):.2f} deg of groove are lost")
-        # The recipe of the page: one end of that node, by what stood in `tables`.
+        # The recipe of the page: one end of that node, with the fields of `tables`.
         node = {"members": asked["members"], "connect": asked["connect"], "member": "B2", "end": "start"}
         alone = self.post("bevel-tables", {"node": node, "sampling": asked["sampling"], **asked["tables"]})
         self.assertEqual(alone["result"]["points"], ends["B2", "start"]["table"]["points"])

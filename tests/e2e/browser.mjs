@@ -1,4 +1,4 @@
-// Chromium as it is without a graphics card, and pages that keep account of what they said and whom they asked.
+// Chromium without a graphics card, and pages that record their messages and requests.
 import {chromium} from 'playwright-core';
 
 const flags = ['--no-sandbox', '--enable-unsafe-swiftshader'];
@@ -45,7 +45,7 @@ export async function then(page, act) {
   await answered(page, before + 1);
 }
 
-/** The form, which a phone shows when it is asked for. */
+/** The form, which a phone shows on demand. */
 export async function formed(page) {
   const edit = page.locator('#edit');
   if (await edit.isVisible() && await edit.getAttribute('aria-expanded') === 'false') await edit.click();
@@ -74,7 +74,7 @@ export async function pixels(page, ratio = 'fine') {
   }, ratio);
 }
 
-/** Texts that stand out from what is behind them by less than 4.5 : 1, the bound of WCAG AA. */
+/** Texts whose contrast against their background is below 4.5 : 1, the bound of WCAG AA. */
 export const faint = (page) => page.evaluate(() => {
   const channels = (colour) => (colour.match(/[\d.]+/g) ?? []).map(Number);
   const over = ([r, g, b, a = 1], [R, G, B]) => [r * a + R * (1 - a), g * a + G * (1 - a), b * a + B * (1 - a)];

@@ -13,7 +13,10 @@ await answered(page);
 await pixels(page);
 await page.locator(`[data-pointer="${pointer}"]`).focus();
 
-/** Steps the focused field, each `every` ms or when the last one is drawn; when each was asked for and which were drawn. */
+/**
+ * Steps the focused field, each `every` ms or when the last one is drawn; returns the time of each
+ * step and the drawn ones.
+ */
 const stepped = (count, every) => page.evaluate(async ([most, pause]) => {
   const field = document.activeElement;
   const drawn = () => Number(document.body.dataset.answers);
@@ -40,7 +43,7 @@ const stepped = (count, every) => page.evaluate(async ([most, pause]) => {
   return {waits, seconds: (performance.now() - begin) / 1000, drawn: drawn() - first, frames};
 }, [count, every]);
 
-await stepped(10, 0);  // what is compiled when it is first needed
+await stepped(10, 0);  // code that is compiled at its first use
 const {waits} = await stepped(100, 0);
 waits.sort((a, b) => a - b);
 const held = await stepped(120, 33);

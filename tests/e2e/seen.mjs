@@ -1,4 +1,4 @@
-// What people see of an example, held against the rules of how the console writes and draws.
+// Checks the visible parts of an example against the console's rules for texts and drawings.
 import {strict as assert} from 'node:assert';
 import {readFile} from 'node:fs/promises';
 import {createRequire} from 'node:module';
@@ -21,7 +21,10 @@ export function wireNames(contract) {
   return names;
 }
 
-/** What is wrong with a text, by the rules of how this page writes: numbers of six digits at most, no rounding's leftovers, no wire names. */
+/**
+ * Returns the faults of a text, by this page's rules: numbers of six digits at most, no rounding
+ * errors, no wire names.
+ */
 export function faultsOf(text, names) {
   const words = (text.match(/\b[a-z0-9]+(?:_[a-z0-9]+)+\b/g) ?? []).filter((word) => names.has(word));
   const long = (text.match(/(?<![\w.])-?\d+(?:\.\d+)?(?!\d|[\w.]*[a-df-zA-Z_]| …)/g) ?? []).filter((number) => {
@@ -32,7 +35,7 @@ export function faultsOf(text, names) {
   return [...words, ...long, ...odd];
 }
 
-/** Texts that do not fit where they stand, and fields that say nothing of themselves. */
+/** Returns texts that do not fit in their place, and fields without a label. */
 export const unseen = (page) => page.evaluate(() => {
   const shown = (node) => node.checkVisibility() && !node.closest('.canvas, .uplot, .skip');
   const labels = new Set(document.querySelectorAll('label, legend, th, td, dt, dd, summary, button, figcaption, h3, .name, .unit, .figure, .card-head, [role=option]'));
@@ -79,7 +82,7 @@ export async function drawn(page, ratio) {
   return solid || (points.length && points.every((count) => count > 1)) ? [] : ['no picture'];
 }
 
-/** What is wrong with the words, the layout and the colours of what is shown. */
+/** Returns the faults of the visible words, layout and colours. */
 async function read(page, names) {
   const text = await page.evaluate(() => document.body.innerText);
   const hints = await page.locator('[title]').evaluateAll((nodes) => nodes.map((node) => node.title).join('\n'));
@@ -97,14 +100,16 @@ async function show(page, {size, theme}) {
   await page.locator(`:root[data-theme=${theme}]`).waitFor();
 }
 
-/** What each look at an example checks. `tabs`: every tab is read; `axe`: each is given to axe too. */
+/**
+ * Checks of each view of an example. `tabs`: every tab is read; `axe`: each is given to axe too.
+ */
 function looksAt({whole, first, every}) {
   const both = [{size: WIDE, theme: 'light', words: true, tabs: first || every, axe: every}, {size: NARROW, theme: 'dark', words: true, tabs: first || every, axe: every}];
   if (whole) return [...both, {size: NARROW, theme: 'light', words: true, tabs: true, axe: true}, {size: WIDE, theme: 'dark', words: true, tabs: true, axe: true}];
   return first ? [...both, {size: NARROW, theme: 'light'}, {size: WIDE, theme: 'dark'}] : both;
 }
 
-/** What is wrong with one look at the example that is open. */
+/** Returns the faults of one view of the open example. */
 async function faultsIn(page, look, names) {
   await show(page, look);
   const found = (faults, where) => faults.map((fault) => `${named(look)} ${where}: ${fault}`);
@@ -123,8 +128,10 @@ async function faultsIn(page, look, names) {
   return wrong;
 }
 
-/** Visits each example once, at both widths and in both themes, and lists what is wrong with each. `whole` chooses the examples of which every
- *  tab is read and given to axe in two of the four looks, `every` all of them in all four; of the others the first of each kind has its tabs read. */
+/** Visits each example once, at both widths and in both themes, and lists the faults of each.
+ * `whole` selects the examples of which every tab is read and given to axe in two of the four
+ * views, `every` all of them in all four; for the others, the first of each kind has its tabs read.
+ */
 export async function visited({browser, origin, service}, {whole = () => false, every = false, tell = () => {}} = {}) {
   const contract = JSON.parse((await service.ask('/openapi.json', {method: 'GET'})).text);
   const names = wireNames(contract);

@@ -48,7 +48,7 @@ class BCurve(FormatTest):
                     self.assertEqual((curve[0][0], curve[-1][0]), (drawn.left, drawn.right))
                     self.assertAlmostEqual(curve[0][1], curve[-1][1], delta=0.011)  # closed
                     got = [drawn.b(y) for _, y in curve]
-                    for extreme in (min, max):  # thinned to pixels, none of them lost
+                    for extreme in (min, max):  # thinned to pixels, with all extremes kept
                         self.assertAlmostEqual(extreme(got), extreme(values), delta=0.02 * drawn.pixel)
                     first = points["phi_deg"][0]
                     for phi, value in list(zip(points["phi_deg"], values))[::17]:

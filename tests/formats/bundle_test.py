@@ -84,7 +84,7 @@ class Bundles(FormatTest):
                     self.assertEqual(by_format[file], by_format["request"].replace(".request.json", "." + ending))
                     query = f"format={form}" + ("&" + CODE if form == "gcode" else "")
                     got, wanted = files[by_format[file]], self.service.text("parts", request, query)
-                    if file == "work-order":  # which says besides whose pieces they are
+                    if file == "work-order":  # which also names the owners of the pieces
                         got, wanted = [text for text in texts(got) if not text.startswith("For member")], texts(wanted)
                     self.assertEqual(got, wanted, f"{name} {by_format[file]}")
                     looked += 1

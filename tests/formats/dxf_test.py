@@ -184,7 +184,7 @@ class Dxf(FormatTest):
             line = mark["z_to_mm"] > mark["z_from_mm"]
             wanted += 1 if line else 2
             places = [(mark["girth_mm"] + turn * girth, (mark["z_from_mm"] + mark["z_to_mm"]) / 2) for turn in (0, -1, 1)]
-            # In space all turns are one place; developed, a mark stands in the contour of its hole.
+            # In space all turns are equal; developed, a mark lies in the contour of its hole.
             held = [place for place in places if any(box[0] <= place[0] <= box[2] and box[1] <= place[1] <= box[3] for box in boxes)]
             middle = (held or places)[0]
             near = [points for points in drawn if any(

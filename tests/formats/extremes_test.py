@@ -61,7 +61,7 @@ class Extremes(FormatTest):
         if name == "pdf":
             self.assertTrue(content.startswith(b"%PDF-"))
         elif name not in ("stl", "glb"):
-            # What a machine reads has no letter beyond ASCII; drawings have degree signs.
+            # Machine files have no letter beyond ASCII; drawings have degree signs.
             self.assertNotRegex(content.decode("utf-8" if name == "svg" else "ascii"), r"(?i)\b-?(nan|inf)\b")
 
     def test_bevel_tables(self):

@@ -51,7 +51,7 @@ def at_rows(got, rows):
     return out
 
 
-# What a program that lights the torch needs, by who moves its height.
+# Values that a program that lights the torch needs, by the control of its height.
 LIT = {"linuxcnc": "&torch=on&lead_mm=5&pivot_length_mm=150&pierce_height_mm=3&pierce_delay_s=0.5&cut_height_mm=1.5",
        "qtplasmac": "&dialect=qtplasmac&torch=on&lead_mm=5"}
 
@@ -128,8 +128,9 @@ class Gcode(FormatTest):
         cut = sum(way for _, way in timed[1:])  # the first goes from pierce to cutting height
         self.assertAlmostEqual(length, cut, delta=0.01)
         self.assertAlmostEqual(time, cut / 600 * 60 + 0.5, delta=0.051)
-        # At A = phi the line phi lies under the torch, at +x say: as A grows from 0 the line 1 deg comes there from +y, against x to y.
-        # Seen from the cut into the tube, along +z, x to y is clockwise: so the tube turns counter-clockwise.
+        # At A = phi the line phi lies under the torch, for example at +x: as A grows from 0 the line 1 deg comes there
+        # from +y, against x to y. Seen from the cut into the tube, along +z, x to y is clockwise: so the tube turns
+        # counter-clockwise.
         self.assertIn("growing A turns the tube counter-clockwise, seen from the cut)", program)
         for word in ("(feed 600 mm/min on the outer wall)", "(tube 70 x 5 mm)", "(X0: the work point, z 0, +X: from the cut into the kept tube)"):
             self.assertIn(word, program)
@@ -161,7 +162,7 @@ class PartGcode(FormatTest):
     def bodies(self):
         for name, body in examples("parts").items():
             yield name, body
-            if "holes" in body and "preset" not in body:  # a preset says how the torch stands
+            if "holes" in body and "preset" not in body:  # a preset sets the torch's tilt
                 tilted = [{**hole, "tilt": "free"} for hole in body["holes"]]
                 yield name + ", torch tilting across", {**body, "holes": tilted}
 
@@ -231,7 +232,7 @@ class ScheduleGcode(FormatTest):
                 letters = {axis: letter for letter, axis, _ in self.LETTER.findall(program)}
                 self.assertEqual(len(set(letters.values())), len(result["start"]))
                 blocks = [line for line in program.splitlines() if line.startswith(("G0 ", "G1 ", "G4 "))]
-                if blocks[1].startswith("G0 "):  # of a part: first off the tube, by the height alone
+                if blocks[1].startswith("G0 "):  # of a part: first off the tube, only by the height
                     self.assertRegex(blocks.pop(0), r"^G0 Z-?[\d.]+$")
                 ends, period = [0], result["period_us"] * 1e-6
                 for i, line in enumerate(blocks[1:], 1):
@@ -266,7 +267,7 @@ class ScheduleGcode(FormatTest):
         mill = examples("pulse-schedules")["source-001-mill-path"]
         self.assertNotRegex(self.service.text("pulse-schedules", mill, "format=gcode").decode(), r"(?m)^M[345]\b")
         status, _, problem = self.service.ask("pulse-schedules", mill, "format=gcode&torch=on")
-        self.assertEqual((status, json.loads(problem)["errors"][0]["pointer"]), (422, "?torch"))  # a mill has none
+        self.assertEqual((status, json.loads(problem)["errors"][0]["pointer"]), (422, "?torch"))  # a mill has no torch
 
 
 if __name__ == "__main__":

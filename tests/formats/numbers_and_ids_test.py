@@ -13,7 +13,7 @@ BLANK = ("", " ", "   ", "\u00a0", "\u2003", "\u3000 ", "\u2800", "\u3164", "\u1
          "\u00ad", "\u202e", "\t",
          "\n", "\u0000", "\U000e0041", "\U000e0100", "\u180e", "\u2028")
 SHOWN = ("a", " a", "B 12", "\u00c4\u4e2d", "\u2714\ufe0f", "-", ".")
-NUMBER = -123456789.25  # stands in a body for the literal that takes its place
+NUMBER = -123456789.25  # placeholder in a body for the literal
 
 
 def places(value, wanted, path=()):

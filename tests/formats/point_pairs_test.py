@@ -10,7 +10,7 @@ import leads_test
 from service import HOSTILE, FormatTest, examples, main, seam_row
 
 ASKED = {"format": "gcode", "post": "point_pairs", "speed_mm_min": 600, "lead_mm": 3, "pierce_height_mm": 4, "pierce_delay_s": 0.4, "cut_height_mm": 1.5}
-OVERCUT = 5.0  # mm, where nothing is said
+OVERCUT = 5.0  # mm, the default
 MEDIA = "application/x-point-pairs+json"
 NEAR = 1e-3  # mm
 

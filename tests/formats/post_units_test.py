@@ -14,7 +14,7 @@ from service import ROOT, FormatTest, examples, main, seam_row
 FIELD = ROOT / "tests/field"
 INCH = 25.4
 CASES = 200
-FEEDS = {  # of a move: how a control is told, and how a reader gets minutes out of it
+FEEDS = {  # of a move: how a control receives it, and how a reader converts it to minutes
     "F[#<speed_mm_min> / {length_mm}]": None, "F[#<speed_mm_min> / {length}]": None, "F{per_minute}": None,
     "F{linear_units_per_minute}": "path", "{axes_feeds}": by_each_axis}
 

@@ -351,7 +351,7 @@ class Solid:
 PLACES, WEIGHTS = np.polynomial.legendre.leggauss(6)
 PLACES, WEIGHTS = (PLACES + 1) / 2, WEIGHTS / 2
 NEAR = 1e-3  # mm: an edge on both its faces
-FLAT_OFF = NEAR  # mm: an edge from what it is on its cylinder at the same parameter
+FLAT_OFF = NEAR  # mm: distance of an edge from its curve on the cylinder at the same parameter
 
 
 def curve_points(edge, forward=True):

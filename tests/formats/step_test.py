@@ -15,7 +15,9 @@ PARTS = int(os.environ.get("TUBECUT_PARTS", "60"))
 NEAR_CUT = 2e-3   # mm from the cut as answered
 NEAR_ROWS = 1e-3  # mm from its rows, and from the exact cut where that is smooth between them
 VOLUME_OFF = 1e-6  # of the answer's, by the file's own edges and cut faces
-MEAN_OFF = 5e-4    # mm of the cut faces beside that: half of what a spline may leave the rows by; weighs in short thin tubes
+# mm of the cut faces in addition to that: half of a spline's permitted distance from the rows; matters in short thin
+# tubes
+MEAN_OFF = 5e-4
 SMALL = 60_000    # bytes of a cut end
 LEANING_OFF = 2e-5  # of a hole's volume, by rows up to 0.05 mm off their curve
 
@@ -180,7 +182,7 @@ class Step(FormatTest):
                     "root_surface": "inner", "groove": {"rule": "half_dihedral"}, "smoothing": {"method": "none"}, "sampling": {"tolerance_mm": 0.001}}
             result = self.service.answer("bevel-tables", body)["result"]
             points = end_points(random.Random(7), result, body["target"], 0.0, 1000)
-            # The tolerance holds the root's rows; the outer edge's lie further from what they stand for.
+            # The tolerance applies to the root's rows; the outer edge's lie further from the exact curve.
             for view, near, size in (("straight", NEAR_CUT, 110_000), ("smooth", 5e-3, SMALL)):
                 with self.subTest(f"{scale} {view}"):
                     content = self.service.text("bevel-tables", body, f"format=step&view={view}")
@@ -272,7 +274,7 @@ class Step(FormatTest):
         genus = 1 + len(result["holes"])
         self.assertEqual(step_reader.faults(solid_of(text.encode()), genus), [])
 
-        # One edge alone: its curve, not the surface beside it, has another point in the middle.
+        # Only one edge: its curve, but not the adjacent surface, has another point in the middle.
         curve = re.search(r"(=B_SPLINE_CURVE_WITH_KNOTS\('',3,\(#\d+,#\d+,#\d+,)#(\d+)", text)
         x, rest = re.search(rf"#{curve[2]}=CARTESIAN_POINT\('',\(([-\d.]+),(.*)\)\);", text).groups()
         moved = text[:curve.start()] + curve[1] + "#999999" + text[curve.end():]

@@ -18,7 +18,7 @@ def admesh(content):
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "cut.stl")
         file.write_bytes(content)
-        # It prints what follows the 80 bytes of the header in its memory, too.
+        # It prints the bytes after the 80 bytes of the header in its memory, too.
         said = subprocess.run(["admesh", file], capture_output=True, text=True, errors="replace", check=True).stdout
     counts = {name: int(re.search(rf"{name}\s*:\s*(\d+)", said)[1]) for name in DEFECTS}
     return counts, int(re.search(r"Number of parts\s*:\s*(\d+)", said)[1]), float(re.search(r"Volume\s*:\s*([-\d.]+)", said)[1])

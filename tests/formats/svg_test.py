@@ -15,7 +15,7 @@ import pdf_reader  # noqa: E402
 from dxf_test import polylines, read  # noqa: E402
 from service import HOSTILE, ROOT, FormatTest, examples, main, off_curve, rolled, seam_row  # noqa: E402
 
-# What a work order calls them (docs/glossary.md), and the mistakes.
+# Names in a work order (docs/glossary.md), and the mistakes.
 CALLED = dict(re.findall(r"^\| `(length_at_\w+|\w+_(?:girth|chord|overhang))` \| ([^|]+) \|", (ROOT / "docs/glossary.md").read_text(), re.M))
 MISTAKES = {"diameter": "another diameter", "wall": "another wall", "clocking": "an end turned", "mirror": "an end mirrored",
             "b_sign": "B the wrong way", "pivot_length": "pivot length off"}

@@ -10,7 +10,7 @@ import random
 from service import ROOT, FormatTest, main
 
 SCHEDULES = int(os.environ.get("TUBECUT_CASES", "16"))
-NEAR = 4.0  # widths of a tab and its kerf along a way: what lies further is not beside it
+NEAR = 4.0  # distance along a path, in widths of a tab and its kerf, beyond which points are not adjacent
 
 
 class Beams:

@@ -16,7 +16,7 @@ from dxf_test import read
 from ezdxf.lldxf.encoding import decode_dxf_unicode
 from service import ROOT, FormatTest, examples, main
 
-# What ends, opens or escapes something in any of the formats, whichever it is printed in.
+# Characters that end, open or escape something in any of the formats.
 HOSTILE = [
     "*) VAR evil : INT; END_VAR (*", "(* open", "(* (* *)", "*)", "*) ; //", "/* open", "*/", "{attribute 'x'}", "$'$N", "x) M3 S1 (",
     "MSG,hello", "PRINT,#1", "LOGOPEN,/tmp/x", "x)(MSG,hello)", ";py,import os", "#1=2 [1/0] o1 call", "%", "/G0 X0", "M3 S1", "** EN",
@@ -51,7 +51,7 @@ def stands_in(word, texts):
     return any(text.endswith(word[:k]) for text in shortened for k in range(6, len(word)))
 
 
-# One reader a format: what acts, and the texts in it.
+# One reader per format: its active elements, and its texts.
 def xml(content):
     root = ElementTree.fromstring(content)
     tags = []
@@ -275,7 +275,7 @@ class Words(FormatTest):
     def test_zones(self):
         body = examples("bevel-tables")["zones"] | {"sampling": {"uniform_points": 36}}
         zones = body["groove"]["zones"]
-        # Each word alone: the ids may not be equal, and a zone may hold no row.
+        # Each word separately, because the ids must not be equal, and a zone may contain no row.
         count = self.both("bevel-tables", ["plain"], lambda words: {**body, "groove": {**body["groove"], "zones": [
             {**zone, "id": words[0]} if zone["id"] == "C" else zone for zone in zones]}}, ("csv",))
         self.assertGreaterEqual(count, len(HOSTILE))

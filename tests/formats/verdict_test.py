@@ -104,7 +104,8 @@ def squeezed(texts):
 
 # The first of a name: fields come before checks.
 GLOSSARY = dict(reversed(re.findall(r"^\| `([^`]+)` \| ([^|]+?) \|", (ROOT / "docs/glossary.md").read_text(), re.M)))
-FOR_PEOPLE = ("image/svg+xml", "application/pdf", "image/vnd.dxf", "text/x-gcode", "application/x-dstv")  # drawings and machine files say it in plain words
+# drawings and machine files use plain words
+FOR_PEOPLE = ("image/svg+xml", "application/pdf", "image/vnd.dxf", "text/x-gcode", "application/x-dstv")
 
 
 def called(pointer):
@@ -188,7 +189,7 @@ class Verdict(FormatTest):
                 say = plain if media in FOR_PEOPLE else squeezed
                 head = say(words)
                 self.assertIn(say(f"verdict: {status}"), head)
-                if media == "model/stl":  # 80 bytes: the status, and first what it is rejected for
+                if media == "model/stl":  # 80 bytes: the status, and the reasons for rejection first
                     first = [r for r in verdict["reasons"] if " > " in r] or verdict["reasons"] or [""]
                     self.assertIn(squeezed(first[0])[:14], head)
                     continue

@@ -58,7 +58,7 @@ class Ways(FormatTest):
         self.assertAlmostEqual(target["outer_diameter_mm"], outer + (2 * wall if answer["request"]["root_surface"] == "inner" else 0), delta=1e-6)
         return target["outer_diameter_mm"], wall
 
-    known = {}  # schedules asked for before
+    known = {}  # schedules requested before
 
     def schedule(self, way):
         asked = json.dumps({**way, **MOTION})

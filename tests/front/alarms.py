@@ -79,7 +79,7 @@ class Record:
                       Dumper=getattr(yaml, "CSafeDumper", yaml.SafeDumper))
             file.flush()
             done = subprocess.run([promtool(), "test", "rules", file.name], capture_output=True, text=True)
-        # promtool names what it saw instead, expression by expression.
+        # promtool names the value that it saw instead, expression by expression.
         seen = re.findall(r"got: (.*)", done.stdout + done.stderr)
         assert len(seen) == len(asked), (done.stdout + done.stderr)[-4000:]
         return [{labels: float(value) for labels, value in re.findall(r"({.*?}) ([^ ,]+)", one)} for one in seen]

@@ -1,5 +1,5 @@
-// docker/grafana-dashboard.json held to Grafana's own types of a dashboard, as the compiler reads them: no field it does not know, none of
-// another type. `npm ci` here comes first.
+// docker/grafana-dashboard.json checked against Grafana's own types of a dashboard, by the
+// compiler: no unknown field, no other type. `npm ci` here comes first.
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {dirname, join} from 'node:path';

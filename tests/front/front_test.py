@@ -160,7 +160,7 @@ class Proxy(unittest.TestCase):
         return document
 
     def test_repeats_only_what_is_safe(self):
-        # What the first replica does, how often both are asked in all, and what the client gets.
+        # Behaviour of the first replica, number of requests to both, and the answer to the client.
         cases = {
             "503": (lambda h: reply(h, 503), 200, 2),
             "closed without a byte": (hang_up, 200, 2),
@@ -169,7 +169,7 @@ class Proxy(unittest.TestCase):
             "504": (lambda h: reply(h, 504), 504, 1),
             "422": (lambda h: reply(h, 422), 422, 1),
         }
-        next_ones = []  # what the next requests meet; then 200
+        next_ones = []  # answers of the next requests; then 200
 
         def behave(handler):
             (next_ones.pop() if next_ones else lambda h: reply(h, 200))(handler)
@@ -232,7 +232,7 @@ class Proxy(unittest.TestCase):
                 replicas[0].end(signal.SIGKILL)
                 restarts.until(lambda: not proxy.up("replica-1"), 5, "the replica seen down")
                 ask(url)
-                replicas[0].start()  # a proxy that first looks when it is up already says nothing of it
+                replicas[0].start()  # a proxy whose first check finds it up reports nothing about it
                 restarts.until(lambda: proxy.up("replica-1"), 20, "the replica seen up again")
                 proxy.process.send_signal(signal.SIGUSR1)
                 self.assertEqual(proxy.process.wait(timeout=10), 0)
@@ -277,7 +277,7 @@ class Proxy(unittest.TestCase):
                     pass  # it is open
                 except ConnectionError:
                     closed += 1
-            self.assertEqual(closed, 40)  # of those that say nothing; others have their own
+            self.assertEqual(closed, 40)  # of silent ones; others have their own
             for other in ("127.0.0.12", "127.0.0.13"):
                 with socket.create_connection(("127.0.0.1", port), 5, (other, 0)) as raw:
                     with ssl._create_unverified_context().wrap_socket(raw) as sock:
@@ -324,7 +324,7 @@ class Proxy(unittest.TestCase):
                     answers = [line for one in greedy for line in one.communicate(timeout=30)[0].decode().splitlines()]
                 problems = [json.loads(line) for line in answers if '"code"' in line]
                 self.assertLessEqual({(429, "overloaded", True)}, {(p["status"], p["code"], p["retryable"]) for p in problems})
-                if clients == 1:  # each is told
+                if clients == 1:  # each gets an answer
                     self.assertEqual((answers.count("200"), answers.count("429")), (most, requests - most))
 
     def test_headers(self):
@@ -503,7 +503,7 @@ class Agreement(unittest.TestCase):
     def test_haproxy_buffers(self):
         size = self.number(r"^  tune\.bufsize (\d+)$")
         self.assertGreaterEqual(size, limit("body_max_bytes") + 16384 + self.number(r"^  tune\.maxrewrite (\d+)$"))
-        self.assertAlmostEqual(4 * size / 2**20, 4.25)  # the cost written beside it
+        self.assertAlmostEqual(4 * size / 2**20, 4.25)  # the cost in the comment next to it
         self.assertAlmostEqual(4 * size * self.number(r"^  maxconn (\d+)$") / 2**30, 1.1, delta=0.05)
 
     def test_haproxy_limits(self):
@@ -644,7 +644,7 @@ class Agreement(unittest.TestCase):
                 with self.subTest(name):
                     routes.write_text(heading + text)
                     self.assertEqual(subprocess.run([DOCKER / "behind-proxy", "--port", "0"], check=True, **run).stdout, f"{networks} --port 0\n")
-            # The service itself then tells the client that the proxy names.
+            # The service itself then reports the client that the proxy names.
             server.unlink()
             server.symlink_to(SERVER)
             for text, client in ((line("0000007F", "00000000", "000000FF"), "9.9.9.9"), (line("004D590A", "00000000", "00FFFFFF"), "127.0.0.1")):

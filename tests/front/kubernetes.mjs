@@ -1,5 +1,6 @@
-// The manifests against the Kubernetes schemas: types by those of npm's kubernetes-models, unknown keys because every object here is
-// closed (the API server drops them in silence). Then what one resource alone cannot say: names, probes, seconds that must fit.
+// The manifests against the Kubernetes schemas: types by those of npm's kubernetes-models, unknown
+// keys because every object here is closed (the API server drops them without a message). Then the
+// relations between resources: names, probes, seconds that must fit.
 import assert from 'node:assert/strict';
 import {readFileSync, readdirSync} from 'node:fs';
 import {createRequire} from 'node:module';
@@ -70,7 +71,8 @@ function documents(folder) {
   });
 }
 
-// As Kustomize does it for what our patches hold: objects by key, lists of named things by name, new ones at their end.
+// As Kustomize does it for the content of our patches: objects by key, lists of named things by
+// name, new ones at their end.
 function patched(base, patch) {
   if (Array.isArray(base)) {
     const added = patch.filter((p) => !base.some((item) => item.name === p.name));
@@ -128,7 +130,7 @@ const [container] = pod.containers;
 const env = Object.fromEntries(container.env.map((e) => [e.name, e.value]));
 const ports = container.ports.map((p) => p.name);
 
-// What "restricted" of the pod security standards asks.
+// Requirements of "restricted" in the pod security standards.
 assert.equal(pod.securityContext.runAsNonRoot, true);
 assert.equal(pod.securityContext.seccompProfile.type, 'RuntimeDefault');
 assert.equal(container.securityContext.allowPrivilegeEscalation, false);
@@ -156,7 +158,7 @@ for (const {port} of of('PodMonitor').spec.podMetricsEndpoints) assert.ok(ports.
 for (const rule of of('NetworkPolicy').spec.ingress) for (const p of rule.ports) assert.ok(ports.includes(p.port));
 assert.equal(of('Ingress', 'overlays').spec.rules[0].http.paths[0].backend.service.name, of('Service').metadata.name);
 
-// What a site sets by the example's patches. An address or network that the server takes.
+// Settings of a site in the example's patches. An address or network that the server accepts.
 const site = all.filter((d) => d.path.includes('overlays') && d.document.kind === 'Deployment')
   .map((d) => d.document.spec.template.spec.containers[0]);
 const trusted = site.flatMap((c) => c.env).filter((e) => e.name === 'TUBECUT_TRUSTED_PROXY');
@@ -164,7 +166,8 @@ assert.equal(trusted.length, 1);
 const [address, bits] = trusted[0].value.split('/');
 assert.ok(isIPv4(address) && Number(bits) <= 32);
 
-// One command makes every secret that something asks for, under the names of files that it asks for, of files that git does not take.
+// One command makes every required secret, under the file names that its users expect, from files
+// that git ignores.
 const kustomization = of('Kustomization', 'overlays');
 const made = Object.fromEntries(kustomization.secretGenerator.map((s) => [s.name, s.files.map((f) => f.split('='))]));
 const asked = [...pod.volumes.flatMap((v) => v.secret?.secretName ?? []), ...of('Ingress', 'overlays').spec.tls.map((t) => t.secretName)];
@@ -184,13 +187,13 @@ for (const file of Object.values(made).flat().map(([, path]) => path)) {
 assert.ok(all.some((d) => d.document.kind === 'Namespace' && d.document.metadata.name === kustomization.namespace));
 assert.equal(of('Kustomization', 'monitoring').namespace, kustomization.namespace);
 
-// What is asked without a key needs none: the admin port never does, the service's port does for all but the console, and a check of
-// HAProxy's without a method is OPTIONS.
+// Checks without a key need no key: the admin port never does, the service's port does for all but
+// the console, and a check of HAProxy's without a method is OPTIONS.
 for (const probe of ['readinessProbe', 'livenessProbe']) assert.equal(container[probe].httpGet.port, 'admin', probe);
 const {annotations} = of('Ingress', 'overlays').metadata;
 assert.match(annotations['haproxy.org/check-http'] ?? 'HEAD /', /^(GET|HEAD) \/( |$)/);
 
-// 70 % of the CPU a replica may use, whatever its size; and replicas to spare for what a disruption may take.
+// 70 % of the CPU that a replica may use, at any size; and spare replicas for a disruption.
 const autoscaler = of('HorizontalPodAutoscaler').spec;
 const cores = (text) => (text.endsWith('m') ? Number(text.slice(0, -1)) / 1000 : Number(text));
 for (const {resources} of [container, ...site.filter((c) => c.resources.limits.cpu !== container.resources.limits.cpu)]) {

@@ -138,7 +138,7 @@ def fired(target):
         yaml.safe_dump({"rule_files": [str(RULES)], "evaluation_interval": "15s", "tests": [loud]}, file)
         file.flush()
         done = subprocess.run([promtool(), "test", "rules", file.name], capture_output=True, text=True)
-    # promtool names what it saw instead of -1.
+    # promtool names the value that it saw instead of -1.
     seen = dict(re.findall(r'alertname=\\?"(\w+)\\?".*?got:.*?(\d+)', done.stdout + done.stderr, re.S))
     assert len(seen) == len(names), done.stdout + done.stderr
     return {name for name, count in seen.items() if int(count) > 0}
@@ -321,7 +321,8 @@ class Alerts(unittest.TestCase):
             wanted = {label: value for label, value in wanted.items() if label != "job"}
             self.assertTrue(any(n == name and wanted.items() <= l.items() for n, l in served), f"{name}{wanted}")
 
-        # What promtool tries the rules on has the service's own labels and values, but for the versions and hashes that must differ.
+        # The inputs of promtool have the service's own labels and values, except for versions and hashes that must
+        # differ.
         values = {}
         for _, of in served:
             for label, value in of.items():

@@ -16,8 +16,8 @@
 namespace tubecut::fuzz {
 namespace {
 
-/// Places in the corpus stand for these; a new endpoint goes behind them. A batch's line asks the
-/// endpoint that it names.
+/// Indices in the corpus refer to these, so append new endpoints at the end. A batch's line uses
+/// the endpoint that it names.
 constexpr std::string_view kIds[] = {
     "intersections", "bevel-tables",    "feed-curves", "nodes", "holes",   "grooves",
     "mill-paths",    "pulse-schedules", "replays",     "parts", "batches", "frames"};
@@ -42,7 +42,7 @@ std::string query_of(const api::Endpoint& endpoint, unsigned way) {
   return query + (format.needs_speed ? "&speed_mm_min=600" : "");
 }
 
-/// A number that asks for more work than one input of a fuzzer may cost.
+/// Returns whether a number requires more work than one input of a fuzzer may cost.
 bool beyond(std::string_view name, const api::Json& value) {
   using Bound = std::pair<std::string_view, double>;
   static constexpr Bound kMost[] = {

@@ -17,7 +17,7 @@ inline constexpr std::size_t kLongest = 8192;
 /// JSON.
 void dispatch_bytes(std::span<const std::uint8_t> bytes, std::stop_token stop = {});
 
-/// Id of the endpoint that an input asks; empty when it asks none.
+/// Returns the id of the endpoint of an input; empty if it names no endpoint.
 [[nodiscard]] std::string_view endpoint_of(std::span<const std::uint8_t> bytes);
 
 }  // namespace tubecut::fuzz

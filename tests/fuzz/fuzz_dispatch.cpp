@@ -8,8 +8,8 @@
 
 namespace {
 
-/// The service ends a job that is over its budget; here it is wider, as every access is checked.
-/// What goes on after the stop is found by libFuzzer's own timeout.
+/// The service ends a job that is over its budget; here it is wider, because every access is
+/// checked. If a job continues after the stop, libFuzzer's own timeout finds it.
 constexpr std::chrono::seconds kBudget{5};
 
 }  // namespace

@@ -44,7 +44,7 @@ void check(RequestReader& reader) {
   }
 }
 
-/// What came out, as text: requests in order, then how it ended.
+/// The output as text: requests in order, then how it ended.
 std::string read(std::string_view bytes, std::size_t piece) {
   std::string story;
   RequestReader reader(kLimits);

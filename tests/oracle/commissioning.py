@@ -39,7 +39,7 @@ def swing_zero(machine, upright, q):
 
 def longer_pivot(machine, upright, q):
     machine["pivot_length_mm"] += 1.0
-    q["Z1"] = q["Z1"] + 1.0  # set up by the tip: the pivot stands higher by as much
+    q["Z1"] = q["Z1"] + 1.0  # set up by the tip, so the pivot is higher by that
 
 
 FAULTS = {

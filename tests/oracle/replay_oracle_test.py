@@ -22,7 +22,7 @@ import replay  # noqa: E402
 
 SERVER = None
 JOBS = 50
-EPS_TIP_MM, EPS_B_DEG = 1e-3, 0.01  # what smoothing may take: a small part of the coarse pulses below
+EPS_TIP_MM, EPS_B_DEG = 1e-3, 0.01  # permitted error of smoothing: a small part of the coarse pulses below
 SLACK = 0.1                         # pulses: those two on the longest arm, and the curve between the points
 SEEN = 5.0                          # pulses: a planted mistake is no matter of rounding
 

@@ -93,8 +93,8 @@ TEST(Access, GivesEachIdentityItsOwnRate) {
   EXPECT_EQ(refusal->retry_after_s, 1);
 }
 
-/// Those who take turns: owners of keys, whatever address they ask from; without keys, addresses,
-/// also those that a trusted proxy names.
+/// Those who take turns: owners of keys, from any address; without keys, addresses, also those that
+/// a trusted proxy names.
 TEST(Access, NamesWhoTakesTurns) {
   const auto mes = make_key("mes");
   const auto cell = make_key("cell");
@@ -310,7 +310,7 @@ TEST(JobFiles, QueueSoManyBytes) {
 TEST(JobFiles, HoldTheBoundsOfADay) {
   const auto folder = ::testing::TempDir() + "tubecut_bounded_jobs";
   ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
-  for (int turn = 0; turn < 2; ++turn) {  // a new process counts what is there
+  for (int turn = 0; turn < 2; ++turn) {  // a new process counts the existing files
     JobFiles files(folder, {.files = 3, .bytes = 100});
     for (int i = 0; i < 20; ++i)
       files.write("2024-03-01", "mes", "job-" + std::to_string(i), "0123456789");

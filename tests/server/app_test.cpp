@@ -16,7 +16,7 @@
 namespace tubecut::server {
 namespace {
 
-/// An api that answers as told and keeps what it was asked.
+/// An api with preset answers that records its calls.
 struct Fake {
   api::Outcome outcome{
       .error = {}, .content_type = "application/json", .body = "{}", .headers = {}, .job = {}};
@@ -303,7 +303,7 @@ TEST(App, TellsWhatWasAskedWhateverBecameOfIt) {
   EXPECT_EQ(late(fine), 504);
   EXPECT_EQ(records.back().facts.input_sha256.size(), 64U);
   EXPECT_NE(records.back().facts.input_sha256, asked);
-  // A tube that is thinner and far beside misses.
+  // A thinner tube far to the side misses.
   EXPECT_EQ(status(target + R"({"kind": "tube", "outer_diameter_mm": 30, "inclination_deg": 60,
                                 "offset_mm": 500}]})"),
             422);

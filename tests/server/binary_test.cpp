@@ -69,7 +69,7 @@ TEST(Binary, SaysFirstWhereItListens) {
   EXPECT_EQ(ask(service.port, get("/livez")).status, 404);
 }
 
-/// A page under a foreign name reaches neither port of a service that asks no key.
+/// A page under a foreign name reaches neither port of a service that requires no key.
 TEST(Binary, AnswersOnItsOwnMachineToNoForeignName) {
   const auto as = [](std::string request, const std::string& host) {
     const std::string own = "Host: localhost";
@@ -155,7 +155,8 @@ TEST(Binary, EndsAtOnceOnASecondSignal) {
 TEST(Binary, AnswersThoughNobodyReadsItsLog) {
   Service service({"--log-queue", "16"});
   Client client(service.port);
-  for (int i = 0; i < 2000; ++i) {  // lines of some 300 bytes: several times what the pipe holds
+  for (int i = 0; i < 2000; ++i) {  // lines of some 300 bytes: several times the capacity of the
+                                    // pipe
     client.send(post("/v1/nowhere", "{}"));
     ASSERT_EQ(client.receive().status, 404) << i;
   }
@@ -345,7 +346,7 @@ TEST(Binary, AsksForKeysAndReadsThemAgain) {
   EXPECT_EQ(status(second.first), 200);
 }
 
-/// Of a key's jobs those that are accepted: neither what is refused nor what no key sent.
+/// Files only of accepted jobs of a key: not of refused ones, nor of those without a key.
 TEST(Binary, KeepsAFilePerAcceptedJobOfAKey) {
   const std::string folder = ::testing::TempDir() + "tubecut_binary_jobs";
   ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);

@@ -61,7 +61,7 @@ Client::~Client() { close(descriptor_); }
 void Client::send(std::string_view bytes) {
   while (!bytes.empty()) {
     const auto n = ::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (n <= 0) return;  // the server ended the connection: the answer tells why
+    if (n <= 0) return;  // the server ended the connection: the answer gives the reason
     bytes.remove_prefix(static_cast<std::size_t>(n));
   }
 }

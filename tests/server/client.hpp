@@ -10,7 +10,7 @@ namespace tubecut::test {
 
 /// One answer as it came over the wire.
 struct Answer {
-  int status = 0;  // 0: none came
+  int status = 0;  // 0: no answer came
   std::string head;
   std::string body;
 
@@ -27,7 +27,7 @@ class Client {
   Client& operator=(const Client&) = delete;
 
   void send(std::string_view bytes);
-  /// Says that no more is sent.
+  /// Announces the end of the input.
   void half_close() const;
   /// The next answer, read by its Content-Length; without body for HEAD and 100.
   [[nodiscard]] Answer receive(bool head_only = false);

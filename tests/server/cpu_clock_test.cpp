@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Works until it is asked to stop, and tells what that took of its CPU.
+/// Works until a stop is requested, and returns the used CPU.
 std::chrono::nanoseconds worked(const std::stop_token& stop) {
   const auto cpu = CpuClock::of_this_thread();
   while (!stop.stop_requested() && cpu.used() < 5s) {
@@ -80,7 +80,7 @@ TEST(CpuLimit, IsEachJobsOwnWhateverTheOneBeforeLeft) {
       stopped_after(300ms, 250ms);  // its timer would end the next one late, the last one's early
     }
   };
-  // A virtual machine stands still at times, and its clocks go on: what is late is so each time.
+  // A virtual machine pauses at times, and its clocks go on, so one late run proves nothing.
   for (int tries = 0; tries < 3 && (tries == 0 || latest >= 50ms); ++tries)
     std::jthread(in_turn).join();
   EXPECT_LT(latest, 50ms);

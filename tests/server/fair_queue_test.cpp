@@ -63,8 +63,8 @@ TEST(FairQueue, LetsNoClientTakeAnothersTurn) {
   }
 }
 
-/// Two clients who always have work share the time evenly, not the jobs, though what a job takes is
-/// foretold wrongly: neither is ahead of the other by more than the two longest jobs.
+/// Two clients who always have work share the time evenly, not the jobs, although the expected time
+/// of a job is wrong: neither is ahead of the other by more than the two longest jobs.
 TEST(FairQueue, SharesTimeNotJobs) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> off(0.2, 5.0);

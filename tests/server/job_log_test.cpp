@@ -64,7 +64,7 @@ TEST(JobLine, SurvivesEveryByte) {
   }
 }
 
-/// However much a job has to say, its line is bounded, still JSON, and tells what it leaves out.
+/// The line of any job is bounded, still JSON, and reports the omitted texts.
 TEST(JobLine, IsAtMostSoLong) {
   for (const auto* piece : {"a_warning_of_some_length", "\x01\x02", "\xc3\xa4", "\"\\"}) {
     JobRecord job = hostile();
@@ -105,7 +105,8 @@ TEST(JobLog, KeepsOrderAndNeverBlocksOnAReaderThatStopped) {
     EXPECT_EQ(std::string(first.data(), 5), "first");
     std::string rest;
     std::array<char, 65536> some{};
-    while (!log.flush(milliseconds(0))) {  // read on: the rest comes, with a word on what is lost
+    while (!log.flush(milliseconds(0))) {  // reading continues: the rest comes, with the number of
+                                           // lost lines
       const auto n = read(ends[0], some.data(), some.size());
       if (n > 0) rest.append(some.data(), static_cast<std::size_t>(n));
     }

@@ -1,6 +1,6 @@
-// What jobs take of memory, counted by the program's own operator new: within the bounds that
-// api/memory.cpp states, for the costliest valid requests of every endpoint in every format and
-// view; and no more than they are given.
+// Memory of jobs, counted by the program's own operator new: within the bounds of api/memory.cpp,
+// for the most expensive valid requests of every endpoint in every format and view; and never more
+// than their grant.
 
 #include "server/jobs/job_memory.hpp"
 
@@ -31,7 +31,7 @@ using Grant = JobMemory::Grant;
 
 constexpr std::size_t kPlenty = std::size_t{1} << 40;
 
-/// A request, and how many of its endpoint's items it asks for.
+/// A request, and the number of its endpoint's items.
 struct Costly {
   std::string name;
   std::string endpoint;
@@ -81,7 +81,7 @@ Costly frame(std::size_t pairs, std::size_t points) {
   return {"a frame with tables", "nodes", std::move(body), pairs * points};
 }
 
-/// A square cut that stands still for `idle` periods more.
+/// A square cut that pauses for `idle` additional periods.
 Costly replay(std::size_t idle) {
   auto body = example("replays/square-cut.json");
   auto counts = at(body, "schedule/counts");
@@ -130,7 +130,7 @@ Costly part(const std::string& file, std::size_t points, std::size_t curves) {
   return one;
 }
 
-/// A frame of so many ends and holes, each sampled so.
+/// A frame with this number of ends and holes, each with this sampling.
 Costly welded(const std::string& file, std::size_t points, std::size_t curves) {
   auto one = sampled("frames/" + file, points);
   one.items = points * curves;
@@ -179,7 +179,7 @@ std::vector<Costly> costliest() {
   return all;
 }
 
-/// Every way to ask for it: format and query.
+/// Returns all formats and queries of an endpoint.
 std::vector<std::pair<std::string, std::string>> ways(const api::Endpoint& endpoint) {
   std::vector<std::pair<std::string, std::string>> out{{"json", "format=json"},
                                                        {"cbor", "format=cbor"}};
@@ -262,7 +262,7 @@ TEST(JobMemory, EndsWhereNoMoreIsGiven) {
   EXPECT_TRUE(ended);
   EXPECT_GT(memory.peak(), 2'900'000U);
   EXPECT_LE(memory.peak(), 4'010'000U);
-  held.clear();  // what is free again may be taken again
+  held.clear();  // freed memory can be taken again
   EXPECT_NO_THROW(held.push_back(std::make_unique<char[]>(2'000'000)));
 }
 
@@ -349,7 +349,7 @@ TEST(JobMemory, EndsAJobWithARefusalWhereverItIs) {
       if (whole.status != 200) continue;
       for (std::size_t part = 1; part < kParts; ++part) {
         const auto given = whole.peak * part / kParts;
-        // The refusal itself and what is made once need some.
+        // The refusal itself and one-time allocations need some.
         const auto status = run(app, target, body, given + 50'000).status;
         EXPECT_TRUE(status == 429 || given + 50'000 >= whole.peak)
             << one.name << ", " << way << ", " << part << ": " << status;

@@ -1,5 +1,5 @@
-// The port's thread runs out of memory, at every place where it asks for some: a connection ends,
-// the process and the others go on, and what was set aside is given back.
+// The port's thread runs out of memory at every allocation: a connection ends, the process and the
+// others continue, and the reserved memory is released.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,8 @@
 namespace {
 
 thread_local bool t_is_port = false;
-std::atomic<int> g_until_fault = 0;  // allocations of the port's thread; 0: none fails
+std::atomic<int> g_until_fault = 0;  // allocations of the port's thread until the next fails; 0: no
+                                     // allocation fails
 std::atomic<int> g_faults = 0;
 
 void* allocate(std::size_t size) {

@@ -2,7 +2,7 @@
 
 namespace tubecut::api {
 
-/// In place of api/version.cpp: the engine after this one, for what a fleet of both does.
+/// Replaces api/version.cpp: the next engine, for tests of a fleet with both.
 std::string_view version() { return "next"; }
 
 int numerics() { return 1000; }

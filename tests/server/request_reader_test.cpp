@@ -17,7 +17,8 @@ RequestReader at_body(const std::string& framing) {
   return reader;
 }
 
-// However it comes: never more than eight times what is there, and in the end its length alone.
+// With any arrival pattern: never more than eight times the received bytes, and in the end only its
+// length.
 TEST(RequestReader, HoldsABodyByWhatHasComeOfIt) {
   const std::string body(kBody, 'x');
   for (const std::size_t piece : {std::size_t{1} << 20, std::size_t{65536}, std::size_t{1000}}) {

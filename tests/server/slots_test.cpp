@@ -88,7 +88,8 @@ TEST(Slots, AreAllTakenByJobsThatComeTogether) {
   }
 }
 
-/// Three that ask again as soon as they are answered, and one with a long job: it has its turn.
+/// Three clients that repeat as soon as they are answered, and one with a long job: it gets its
+/// turn.
 TEST(Slots, BelongToLongJobsTooBesideQuickOnesWithoutEnd) {
   std::atomic<bool> begun = false, over = false;
   std::atomic<Slots*> slots = nullptr;

@@ -328,7 +328,7 @@ TEST(Transport, AnswersAcceptedWorkWhileDraining) {
   EXPECT_TRUE(port.join());
 }
 
-/// Computes for so long: what a kind takes is learnt from the CPU of its jobs.
+/// Computes for this time, because the mean of a kind is learnt from the CPU of its jobs.
 void compute_for(std::chrono::milliseconds time) {
   const auto end = std::chrono::steady_clock::now() + time;
   while (std::chrono::steady_clock::now() < end) {
@@ -348,10 +348,10 @@ Service service_of(std::function<Response(const Request&)> handle) {
           .budget = [](const Request&) { return Budget{.cpu = std::chrono::milliseconds(5000)}; }};
 }
 
-/// Lets a job of some length teach what its kind takes.
+/// Runs a long job, so that the mean of its kind is learnt.
 void teach(const Port& port) { EXPECT_EQ(one(port, get("/longish")).substr(0, 3), "GET"); }
 
-/// Catalogues, and small jobs of a kind of which none is done yet.
+/// Catalogues, and small jobs of a kind of which no job has finished yet.
 TEST(Transport, AnswersQuickJobsWhileLongOnesHoldEverySlot) {
   std::atomic<bool> learnt = false;
   std::promise<void> go;
@@ -423,8 +423,8 @@ TEST(Transport, AnswersAClientsQuickJobsWhileAnothersOfTheKindAreLong) {
   EXPECT_EQ(hogs.front()->receive().status, 200);
 }
 
-/// What was long once says nothing of a service that has nothing to do. A job that would have to
-/// wait for a quarter of its budget is refused, and the long ones took three.
+/// Long jobs of the past must not cause refusals on an idle service. A job that would have to wait
+/// for a quarter of its budget is refused, and the long ones took three.
 TEST(Transport, RefusesNobodyOnAnIdleServiceForWhatWasLongBefore) {
   auto service = service_of([](const Request& request) {
     if (request.target.starts_with("/long")) compute_for(300ms);
@@ -465,7 +465,7 @@ TEST(Transport, CountsAJobsOwnCpu) {
   }
 }
 
-/// What those that help hold for a job it gives back too, when they are gone.
+/// The job also frees the memory that helpers hold for it, after they are gone.
 TEST(Transport, StopsAJobInTimeToGiveBackWhatItsHelpersHold) {
   constexpr std::size_t kEach = std::size_t{128} << 20;
   constexpr auto kCpu = 400ms;
@@ -488,7 +488,7 @@ TEST(Transport, StopsAJobInTimeToGiveBackWhatItsHelpersHold) {
   options.slots = 2;
   const Port port(std::move(service), options);
   std::chrono::nanoseconds used = kCpu;
-  // A virtual machine stands still at times, and its clocks go on.
+  // A virtual machine pauses at times, and its clocks go on.
   for (int tries = 0; tries < 3 && used >= kCpu - 40ms; ++tries)
     used = std::chrono::nanoseconds(std::stoll(one(port, get("/held"))));
   EXPECT_LT(used, kCpu - 40ms);  // 0.16 ms per MiB; the job's own thread holds half

@@ -121,7 +121,7 @@ struct Place {
   double along = 0.0, across = 0.0, depth = -std::numeric_limits<double>::infinity();
 };
 
-/// Steps in both directions, halved when none helps.
+/// Steps in both directions, halved if no step improves the result.
 void refine(const Wall& wall, std::span<const Solid> solids, Place& best) {
   const double widest = static_cast<double>(wall.edges.size() - 1);
   const double size = std::max(1.0, wall.way(best.gap));

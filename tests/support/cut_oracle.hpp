@@ -1,12 +1,12 @@
 #pragma once
 
-// An oracle of cut walls: how deep a finished wall enters its partners, between the rows of an
-// answer as well as at them. It takes what a request says and what an answer states, and includes
-// core for those two types alone: its solids are their own, each in a frame made by turning and
-// shifting, and the wall is looked at point by point.
+// An oracle of cut walls: the depth of a finished wall in its partners, between the rows of an
+// answer and at them. Its inputs are a request and an answer, and it includes core only for those
+// two types: its solids are independent, each in a frame made by turning and shifting, and it
+// samples the wall point by point.
 //
-// To prove another wall (a torch line, a kerf's face, a mill's flank), state its edges as a `Wall`
-// and what it must stay clear of as `Solid`s; any function of a point will do.
+// To verify another wall (a torch line, a kerf's face, a mill's flank), state its edges as a `Wall`
+// and the bodies to avoid as `Solid`s; any function of a point will do.
 
 #include <array>
 #include <cstddef>
@@ -24,10 +24,10 @@ using Point = std::array<double, 3>;
 /// How far outside a point lies, mm: negative inside. In the target's frame.
 using Solid = std::function<double(const Point&)>;
 
-/// A partner as it was asked for, with everything nearer to its surface than `grown` (coating and
-/// root gap) counted as inside.
+/// Returns a requested partner; everything nearer to its surface than `grown` (coating and root
+/// gap) counts as inside.
 [[nodiscard]] Solid solid_of(const joint::Partner& partner, double grown = 0.0);
-/// The partners of a table, grown as it asks.
+/// Returns the partners of a table, grown as it requires.
 [[nodiscard]] std::vector<Solid> solids_of(const bevel::TableSpec& spec);
 
 /// One edge of a wall: at `radius` about the target's axis, phi (rad) and z (mm) of each row.

@@ -52,7 +52,7 @@ enum class Kind { set_on, set_in, through, mitre, corner_to_corner, butt };
 inline constexpr std::array kKinds{Kind::set_on, Kind::set_in,           Kind::through,
                                    Kind::mitre,  Kind::corner_to_corner, Kind::butt};
 
-/// What a frame's joint says; a member of a node says `mitre` where two are butted.
+/// Returns the wire name of a frame's joint; a member of a node has `mitre` if two are butted.
 inline std::string word(Kind kind, bool frame) {
   static constexpr std::array kWords{"set_on", "set_in", "through", "mitre", "mitre"};
   if (kind == Kind::butt) return frame ? "butt" : "mitre";
@@ -82,7 +82,7 @@ struct Said {
 struct Model {
   std::vector<Tube> tubes;
   std::vector<Said> joints;
-  Real within = 0;  // mm: what is nearer is joined; 0: what is stated alone
+  Real within = 0;  // mm: members nearer than this are joined; 0: only stated joints
 };
 
 struct Random {
@@ -180,7 +180,7 @@ inline void write_down(Model& model, Written written, Random& random) {
       (*p)[1] = std::sin(turn) * x + std::cos(turn) * y;
       *p = *p + to;
       const Real step = grid(written);
-      // What is sent is what is measured with.
+      // Rounds the values in place, so that the sent values are also those of the measurement.
       for (auto& v : *p) v = static_cast<double>(step > 0 ? step * std::round(v / step) : v);
     }
 }
@@ -201,7 +201,7 @@ inline Json::Object member(const Tube& t) {
           {"priority", Json{static_cast<double>(t.priority)}}};
 }
 
-/// What is said of a joint by whoever says it, but for who joins whom.
+/// Writes the fields of a joint, the same for both sides, except for who joins whom.
 inline void say(const Said& said, bool frame, Json::Object& out) {
   out.emplace_back("kind", Json{word(said.kind, frame)});
   out.emplace_back("gap_mm", number_of(said.gap));
@@ -213,7 +213,8 @@ inline Json within_of(const Model& model) {
   return Json{Json::Object{{"within_mm", number_of(model.within)}}};
 }
 
-/// `members` and `connect`, as nodes and parts take them: each joint said by one of its two.
+/// Returns `members` and `connect`, in the form of nodes and parts: each joint stated by one of its
+/// two.
 inline Json::Object members_of(const Model& model, Random& random) {
   std::vector<Json::Array> joints(model.tubes.size());
   Json::Array links;
@@ -253,7 +254,7 @@ inline Json::Object frame_of(const Model& model, Random& random) {
   return out;
 }
 
-/// Does a pointer of an answer lead to a place of what was asked?
+/// Returns whether a pointer of an answer leads to a field of the request.
 inline bool leads_into(const Json& request, std::string_view pointer) {
   if (pointer.empty() || pointer.front() != '/') return pointer.empty();
   try {

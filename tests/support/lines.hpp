@@ -9,8 +9,8 @@
 
 #include "tests/support/call.hpp"
 
-/// Frames whose members are pieces of lines, and what of their answers can be told from the
-/// centre-lines alone, in long double. Nothing here is core's.
+/// Frames whose members are pieces of lines, and the properties of their answers that follow from
+/// only the centre-lines, in long double, without any code of core.
 namespace tubecut::testing::lines {
 
 using api::Json;
@@ -54,7 +54,7 @@ struct Random {
     std::normal_distribution<double> normal;
     return unit({normal(engine), normal(engine), normal(engine)});
   }
-  /// Leaning by so many degrees from a direction, to any side.
+  /// Returns a direction tilted by `deg` degrees, to any side.
   Point leaning(const Point& axis, Real deg) {
     const Point side = unit(cross(direction(), axis));
     return std::cos(deg * kRad) * unit(axis) + std::sin(deg * kRad) * side;
@@ -106,7 +106,7 @@ inline Json request_of(const std::vector<Tube>& tubes, double within, bool merge
   return Json{std::move(out)};
 }
 
-/// What a JSON pointer names, if there is anything.
+/// Returns the value of a JSON pointer, if it exists.
 inline const Json* resolved(const Json& json, std::string_view pointer) {
   const Json* here = &json;
   while (here != nullptr && !pointer.empty()) {
@@ -154,7 +154,7 @@ inline const Json* member_of(const Json& answer, std::string_view id) {
     if (text(one, "id") == id) return &one;
   return nullptr;
 }
-/// The part that a member is; null where it has none.
+/// Returns the part of a member; null if it has no part.
 inline const Json* part_of(const Json& answer, std::string_view id) {
   const auto* member = member_of(answer, id);
   if (member == nullptr) return nullptr;
@@ -185,7 +185,7 @@ inline std::vector<Point> root_of(const Json& answer, const Tube& tube, bool fin
   return out;
 }
 
-/// Of the joint of two, "kind"; empty where they have none.
+/// Returns "kind" of the joint of two; empty if they have no joint.
 inline std::string joint_of(const Json& answer, std::string_view a, std::string_view b) {
   for (const auto& one : *at(answer, "result/joints").as<Json::Array>()) {
     const auto branch = text(one, "branch"), chord = text(one, "chord");

@@ -1,7 +1,7 @@
 #pragma once
 
 // An independent oracle of the contour: long double, distances to axes in space, bracketing and
-// bisection. It includes nothing of core and none of its formulas.
+// bisection. It includes no code of core and uses no formula of it.
 
 #include <array>
 #include <cmath>

@@ -17,7 +17,7 @@ SOUND = {
     "tests/x_test.cpp": '#include "core/base/angle.hpp"\n#include "server/app.hpp"\n',
 }
 
-# What is added to the sound tree, and what the tool must say.
+# Additions to the sound tree, and the tool's expected messages.
 BAD = {
     "core looks at api": ({"core/x.cpp": '#include "api/api.hpp"\n'}, "core may not look there"),
     "core looks at server": ({"core/x.cpp": '#include "server/app.hpp"\n'}, "core may not look there"),

@@ -56,7 +56,7 @@ CHANGES = {
                           "maximum 20 at /components/schemas/Two"),
     "behind a reference": (lambda c, f: c["components"]["schemas"]["Cutters"].update(maxItems=65), "maxItems 65"),
 }
-# Every limit, changed in the code alone.
+# Every limit, changed only in the code.
 CHANGES |= {f"{name} differs": ((lambda name: lambda c, f: f["limits"]["limits"].update({name: LIMITS[name] / 2}))(name), f"limit {name}: ")
             for name in LIMITS if name != "nesting_max"}
 

@@ -17,7 +17,7 @@ HAPROXY, COMPOSE = (DOCKER / name for name in ("haproxy.cfg", "compose.yaml"))
 BASE, OVERLAY, INGRESS = ("kubernetes/base/deployment.yaml", "kubernetes/overlays/example/trusted-proxy.yaml",
                           "kubernetes/overlays/example/ingress.yaml")
 
-# The rule, the file, what stands in it, and what it is spoilt to. What is left must be as good as before.
+# The rule, the file, a text of it, and its spoilt form. Everything else must pass as before.
 SPOILT = [
     ("timeout", "haproxy.cfg", "timeout server 10s", "timeout server 8s"),
     ("timeout", "haproxy.cfg", "set-timeout server 130s", "set-timeout server 120s"),

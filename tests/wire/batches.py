@@ -21,7 +21,7 @@ from service import Service, connect, exchange, get, post
 GROWTH = 16.0  # MiB over the whole run: answers held, working memory of the slots
 SEED = 2
 IN_FULL = 6000    # jobs of the run that also judges times
-LATE_MS = 50      # of a request beside blank lines; one of a hundred may take longer
+LATE_MS = 50      # of a request next to blank lines; one of a hundred may take longer
 SMALL = 16 << 20  # bytes for bodies and answers: the least that there is
 
 
@@ -73,7 +73,7 @@ class Suite:
 
     def whole(self):
         with Service(self.binary) as service:
-            list(batch(service.port, lines_of(20)[1]))  # what a first job sets aside for good
+            list(batch(service.port, lines_of(20)[1]))  # memory that a first job keeps for good
             before = service.memory("VmRSS")
             times, stop = [], threading.Event()
 

@@ -53,7 +53,7 @@ def jobs(times):
         yield target, target, heaviest.text(body), budgets
 
 
-# Heaviest by what they ask of the reader, or refused for what would take too long.
+# Heaviest for the reader, or refused because they would take too long.
 REFUSED = ("star-500 ", "crossed ", "unknown-fields ", "full ")
 
 

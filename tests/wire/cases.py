@@ -125,7 +125,7 @@ def smuggling():
         "length in a trailer": b"0\r\nContent-Length: 3\r\n\r\n", "chunked in a trailer": b"0\r\nTransfer-Encoding: chunked\r\n\r\n",
     }.items():
         refused(k, "chunk: " + name, head(TE) + text, trap=name in {"data longer than its size", "data ends with LF", "bare LF in an extension"})
-    # The reader's second piece of 64 KiB begins with what looks like a request, in a body behind an empty batch.
+    # The reader's second piece of 64 KiB begins with bytes that look like a request, in a body behind an empty batch.
     front = lines(b"") + head("Content-Length: 100000")
     case(k, "a request in a body behind an empty batch", front + (b" " * (65536 - len(front)) + SMUGGLED).ljust(100000), [200, 400])
     case(k, "look-alike names are only names", get("/v1/version", "Content_Length: 50", "Transfer_Encoding: chunked", "XContent-Length: 9"), 200)

@@ -140,7 +140,7 @@ def group_of(mib):
         if controllers in ("", "memory"):
             base = "/sys/fs/cgroup" + ("/memory" if controllers else "") + path
             if not controllers and not (pathlib.Path(base) / "memory.max").exists() and path == "/":
-                continue  # version 2 without the controller, beside version 1
+                continue  # version 2 without the controller, next to version 1
             folder = pathlib.Path(base) / f"tubecut-{os.getpid()}"
             folder.mkdir()
             (folder / ("memory.limit_in_bytes" if controllers else "memory.max")).write_text(str(mib << 20))

@@ -84,7 +84,7 @@ def main():
         if service.metric("tubecut_slots_busy ") < 1:
             wrong.append("the first job was over meanwhile")
     with Service(binary, "--slots", "1") as service:
-        for _ in range(20):  # what a small job takes
+        for _ in range(20):  # time of a small job
             exchange(service.port, post(BODY))
         until = time.monotonic() + seconds
         with connect(service.port, 60.0) as sock:

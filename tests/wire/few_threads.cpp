@@ -1,4 +1,4 @@
-// Loaded before the C library: after so many threads as FEW_THREADS says the system has no more.
+// Loaded before the C library: after FEW_THREADS threads the system has no more.
 
 #include <dlfcn.h>
 #include <pthread.h>

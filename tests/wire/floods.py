@@ -177,7 +177,7 @@ def main():
         with Service(words[0]) as service:
             for _ in range(20):
                 exchange(service.port, get("/v1/version"))
-            pathlib.Path(f"/proc/{service.process.pid}/clear_refs").write_text("5")  # forget the peak so far
+            pathlib.Path(f"/proc/{service.process.pid}/clear_refs").write_text("5")  # reset the peak
             before = service.memory("VmHWM")
             sent = flood(service, first, blocks)
             alive = service.alive()

@@ -17,7 +17,7 @@ def options(says):
     reads = says.get("x-options", [])
     program = PROGRAM if "speed_mm_min" in reads else ""
     files = FILES if "files" in reads else ""
-    lands = [files + program + "&passes=both"] if "passes" in reads else []  # refused of what has no land
+    lands = [files + program + "&passes=both"] if "passes" in reads else []  # refused if there is no land
     held = [files + program + "&tabs=12&tab_mm=20&tabs_of=all"] if "tabs" in reads else []  # refused where a cut is short
     return [files + program, *lands, *held, *(["&paper=a4"] if "paper" in reads else [])]
 

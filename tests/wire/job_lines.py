@@ -20,7 +20,7 @@ OPEN = {**TABLE, "cutters": [{"kind": "tube", "outer_diameter_mm": 40, "inclinat
 LONG = {**TABLE, "sampling": {"uniform_points": 20000}}
 ASKED, RESULT, BODY = "input_sha256", "result_sha256", "body_sha256"
 
-# (what, query, body, headers, status, the hashes of its line)
+# (name, query, body, headers, status, the hashes of its line)
 JOBS = [
     ("answered", "", TABLE, {}, 200, {ASKED, RESULT}),
     ("validated", "?validate_only=true", TABLE, {}, 200, {ASKED, RESULT}),

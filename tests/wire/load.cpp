@@ -1,9 +1,9 @@
 // A client of many connections on one thread: load SECONDS CONNECTIONS PORT FILE... [--rate R]
 // [--pace MS] Each FILE is a whole request as bytes (head and body); connections take them in turn,
 // keep alive, one at a time each. Without --rate a connection sends as soon as it is answered;
-// --rate bounds requests per second over all of them. A connection told to end comes back. Prints
-// one line of JSON: answers by status, latencies in ms of those accepted and of those turned away,
-// and what got lost.
+// --rate bounds requests per second over all of them. If a connection is told to end, it
+// reconnects. Prints one line of JSON: answers by status, latencies in ms of accepted and of
+// refused ones, and the number of lost ones.
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -161,7 +161,7 @@ class Load {
     }
   }
 
-  /// Reads what there is; false at the connection's end.
+  /// Reads the available bytes; returns false at the connection's end.
   bool pull(Connection& c) {
     for (;;) {
       const auto n = ::recv(c.socket, buffer_.data(), buffer_.size(), 0);
@@ -172,7 +172,7 @@ class Load {
     }
   }
 
-  /// Takes a whole answer off what came; false when the connection ends with it.
+  /// Removes a whole answer from the received bytes; returns false if the connection ends with it.
   bool take(Connection& c) {
     const auto end = c.in.find("\r\n\r\n");
     if (end == std::string::npos) return true;

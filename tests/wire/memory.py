@@ -59,7 +59,7 @@ def main():
             path = pathlib.Path(folder) / str(i)
             path.write_bytes(data)
             files.append(str(path))
-        # The heavy ones come once in so many turns: a fifth of the work is theirs.
+        # The heavy ones come once in this many turns, so that they are a fifth of the work.
         light = len(list(mixed()))
         files = files[:light] * 40 + files[light:]
 

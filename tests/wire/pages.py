@@ -14,7 +14,7 @@ from service import ROOT, Service, exchange, post
 TARGET = "/v1/bevel-tables?format=glb"
 TABLE = json.loads((ROOT / "examples/bevel-tables/mitre.json").read_bytes())
 BODY = json.dumps(TABLE | {"sampling": {"uniform_points": 20000}}).encode()
-PART = 0.5  # of the pages filled; 1.5 with none kept and small ones
+PART = 0.5  # of the filled pages; 1.5 without kept ones, with small ones
 KEPT_MIB = 16.0  # caches of threads, pages of 2 MiB that are still used in part
 BACK_S = 20.0
 LARGE = pathlib.Path("/sys/kernel/mm/transparent_hugepage/enabled")

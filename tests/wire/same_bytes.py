@@ -12,10 +12,10 @@ import sys
 from service import ROOT, Service, exchange, post
 
 CONNECTIONS = 8
-ROUNDS = 3  # each example meets others beside it
+ROUNDS = 3  # each example runs next to others
 FEW = ("bevel-tables/mitre", "bevel-tables/zones", "frames/gate-with-rails-through-uprights", "grooves/case-a-right-angle", "holes/through-brace",
        "intersections/source-000-table-1", "nodes/k-joint-with-tables", "parts/k-joint-brace", "replays/square-cut")
-PATIENT = ("--budget-s", "60", "--queue", "64")  # what is answered, not how soon
+PATIENT = ("--budget-s", "60", "--queue", "64")  # compares the answers, not their times
 
 
 def examples(every):

@@ -19,7 +19,7 @@ class Service:
     def __init__(self, *command, said=None):
         stock = command[0].endswith("stock_server")
         words = [command[0]] if stock else [command[0], "--port", "0", "--admin-port", "0", *command[1:]]
-        # An address sanitizer keeps freed memory aside, 256 MiB of it unless told: what is held could not be seen.
+        # An address sanitizer keeps freed memory in quarantine, 256 MiB by default, which would hide the held memory.
         aside = os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=1:thread_local_quarantine_size_kb=64"
         self.process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=said, env={**os.environ, "ASAN_OPTIONS": aside})
         self.stock = stock

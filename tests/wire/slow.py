@@ -39,7 +39,7 @@ class Slow:
     def begin(self):
         self.sock = connect(self.port)
         self.sock.sendall(self.first)
-        if not self.rest:  # one after the other: answers asked for all at once would fill the queue
+        if not self.rest:  # one after the other, because requests for all answers at once would fill the queue
             receive(self.sock, enough=1, patience=PATIENCE_S)
         self.sock.setblocking(False)
 

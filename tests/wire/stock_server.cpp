@@ -1,5 +1,5 @@
-// What the wire suite prevents: the same paths on cpp-httplib as it comes, with nothing of ours
-// before it. Prints the ready line of the service, so that the runners start either.
+// The problems that the wire suite prevents: the same paths on plain cpp-httplib, without any code
+// of ours before it. Prints the ready line of the service, so that the runners start either.
 
 #include <httplib.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr auto kJob = std::chrono::milliseconds(300);  // of the path that computes
 constexpr int kThreads =
-    8;  // what it has on up to nine cores; on more the runners' crowds would do
+    8;  // its number on up to nine cores; on more, the runners' crowds would suffice
 
 }  // namespace
 

@@ -14,7 +14,7 @@ import heaviest
 from budget import ask, cpu_ms
 from service import ROOT, Service
 
-LONGEST_MS = 400  # of the heaviest: what comes later is met by others
+LONGEST_MS = 400  # of the heaviest: later samples are covered by others
 
 
 def requests():

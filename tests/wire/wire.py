@@ -20,7 +20,7 @@ def run(port, case, ours):
             if case.half_close:
                 sock.shutdown(1)
         except OSError:
-            pass  # ended while we wrote: the answer tells why
+            pass  # ended while we wrote: the answer gives the reason
         wanted = case.statuses
         replies, rest, ended = [], b"", False
         if case.then:

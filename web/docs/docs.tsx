@@ -33,7 +33,7 @@ async function begin(): Promise<void> {
     const content = contract.paths[`/v1/${endpoint}`]?.['post']?.requestBody?.content['application/json'];
     if (content) content.examples = {...content.examples, [name]: {value: body}};
   }
-  // Swagger UI would send every default, and options of a drawing are refused beside JSON.
+  // Swagger UI would send every default, and options of a drawing are refused for JSON.
   for (const parameter of Object.values(contract.components.parameters)) {
     if (parameter.schema.default === undefined) continue;
     parameter.description = `${parameter.description ?? ''} Default: ${String(parameter.schema.default)}.`;
@@ -50,7 +50,7 @@ async function begin(): Promise<void> {
     syntaxHighlight: {activated: false},
     docExpansion: 'list',
     requestInterceptor: sent,
-    showMutatedRequest: false, // the curl shown beside an answer has no key in it
+    showMutatedRequest: false, // the curl shown with an answer contains no key
   });
 }
 

@@ -14,7 +14,7 @@ const row = (line: string, cell: string) =>
     .map((text) => `<${cell}>${inline(text.trim())}</${cell}>`)
     .join('')}</tr>`;
 
-/** What docs/glossary.md is made of, as HTML: headings, paragraphs, tables. */
+/** Returns docs/glossary.md as HTML: headings, paragraphs, tables. */
 export function html(markdown: string): string {
   return markdown
     .trim()

@@ -1,4 +1,7 @@
-/** What docs/glossary.md calls the names on the wire: `fields`, `checks`, `limits` of an answer's proof, and `values`; each has a name and a sentence. */
+/**
+ * The names of wire names in docs/glossary.md: `fields`, `checks`, `limits` of an answer's
+ * verification, and `values`; each has a name and a sentence.
+ */
 export type Words = Record<'fields' | 'checks' | 'limits' | 'values', Record<string, [string, string]>>;
 
 const sections: [RegExp, keyof Words][] = [

@@ -22,10 +22,10 @@ async function through(bytes: Uint8Array, stream: GenericTransformStream): Promi
 }
 
 const largest = 24000; // characters; longer addresses do not survive mail and chat
-const mark = '~'; // a job stands here in full, and not the name of an example
+const mark = '~'; // marks a job in full, as opposed to the name of an example
 const sealed = '.'; // deflated with a checksum (zlib): without one, another character in the middle can be another job
 
-/** A job too long for an address leaves the mark alone. */
+/** If a job is too long for an address, only the mark remains. */
 export async function written(place: Place): Promise<string> {
   const view = new URLSearchParams(place.view).toString();
   let job = place.example ?? '';
@@ -39,7 +39,10 @@ export async function written(place: Place): Promise<string> {
 
 export const tooLong = (hash: string) => hash.endsWith(`/${mark}`);
 
-/** What a link says, or why it says nothing that can be trusted. Null where the hash is no link to a job. */
+/**
+ * Returns the content of a link, or the reason why it cannot be trusted. Null if the hash is not a
+ * link to a job.
+ */
 export async function read(hash: string): Promise<Place | {damage: string} | null> {
   if (!hash.startsWith('#/') || hash === '#/') return null;
   const match = /^#\/([a-z-]+)(?:\/([^?]*))?(?:\?(.*))?$/.exec(hash);

@@ -153,7 +153,7 @@ export class Plot {
     ctx.restore();
   }
 
-  /** The kept side, and below the cut what each partner takes away. */
+  /** Draws the kept side, and below the cut the material that each partner removes. */
   private wrapped(u: uPlot): void {
     const {ctx, bbox} = u;
     const z = this.chart.series[0]?.values as number[];
@@ -287,7 +287,7 @@ export function walk({link, x}: Chart, event: KeyboardEvent): void {
   event.preventDefault();
 }
 
-/** What a chart shows, for those who do not see it. */
+/** Returns the text alternative of a chart. */
 export const described = ({title, unit, x, series}: Chart) =>
   `${title}: ${series.map((s) => `${s.name} ${spread(s.values, unit)}`).join(', ')} over ${x.name}; ${x.values.length} points. Left and right move the cursor.`;
 

@@ -16,7 +16,7 @@ import {ask, Latest, path, type Answer, type Endpoint, type Example, type Machin
 
 const firstJob = {endpoint: 'bevel-tables', example: 'source-000-table-1'};
 
-/** After what changed is drawn. */
+/** Runs after the change is drawn. */
 const drawn = (act: () => void) => queueMicrotask(act);
 
 /** The state of the page, of which the views are drawn: a job, its answer, and the address that holds it. */
@@ -27,16 +27,16 @@ export class Console {
   readonly view = signal<'before' | 'after'>('after');
   readonly partners = signal(true);
   readonly tab = signal('proof');
-  readonly item = signal<number | null>(null); // chosen in the picture or beside it
-  readonly job = signal(0); // counts what was opened; edits are of the same job
+  readonly item = signal<number | null>(null); // chosen in the picture or next to it
+  readonly job = signal(0); // counts opened jobs; edits belong to the same job
   readonly changes = signal(0); // of the job
   readonly formShown = signal(false);
   readonly lost = signal<string | null>(null); // why the link in the address cannot be read
   readonly reply = signal<Reply | undefined>(undefined);
   readonly answer = signal<Answer | undefined>(undefined);
   readonly picture = signal<Picture | undefined>(undefined);
-  readonly said = signal(''); // what the picture comes to, for the verdict
-  readonly trouble = signal(''); // what went wrong in drawing
+  readonly said = signal(''); // summary of the picture, for the verdict
+  readonly trouble = signal(''); // error of the drawing
   readonly leads = signal<Lead[]>([]);
   readonly linked = signal('Copy link');
   readonly keyed = signal(false);
@@ -70,7 +70,7 @@ export class Console {
     addEventListener('keydown', (event) => this.shortcut(event));
   }
 
-  /** What can be computed, in the order of the pages. */
+  /** The endpoints, in the order of the pages. */
   get pages(): Endpoint[] {
     const rank = (id: string) => (endpointOrder.indexOf(id) + 100) % 100;
     return this.endpoints.filter((each) => this.contract.request(each.path)).sort((a, b) => rank(a.id) - rank(b.id));
@@ -118,7 +118,7 @@ export class Console {
     this.writtenJob = this.job.value;
   }
 
-  /** A link that cannot be read is said to be, and nothing of another job is shown in its place. */
+  /** Reports that a link cannot be read, and shows nothing of another job in its place. */
   private lose(why: string): void {
     batch(() => {
       this.job.value += 1;
@@ -224,23 +224,24 @@ export class Console {
       this.said.value = odd ? '' : (picture?.said ?? '');
       this.trouble.value = '';
       if (odd) this.failed(picture);
-      // What cannot be drawn leads to its files alone.
+      // If it cannot be drawn, it leads only to its files.
       const leads = odd ? [] : leadsOf(this.endpoint.value, this.body, reply.answer, this.context, this.contract);
       this.leads.value = leads.filter((lead) => this.endpoints.some(({id}) => id === lead.endpoint));
       if (picture && !odd) {
         this.picture.value = picture;
         this.drawnJob = this.job.value;
       }
-    } else if (this.drawnJob !== this.job.value) this.clear(); // no picture of another job beside a refusal
+    // no picture of another job next to a refusal
+    } else if (this.drawnJob !== this.job.value) this.clear();
     this.told();
   }
 
-  /** Counts what the page came to say: those who wait for it see this. */
+  /** Counts the page's messages, for those who wait for one. */
   private told(): void {
     document.body.dataset['answers'] = String(Number(document.body.dataset['answers'] ?? 0) + 1);
   }
 
-  /** What goes wrong in drawing is said above the pictures. */
+  /** Shows an error of the drawing above the pictures. */
   readonly failed = (failure: unknown): void => {
     this.trouble.value = `Not all of this answer could be drawn: ${failure instanceof Error ? failure.message : String(failure)}`;
   };
@@ -279,7 +280,7 @@ export class Console {
     await this.writeHash();
     this.tab.value = 'proof';
     this.begin(endpoint, undefined, clone(body), true);
-    byId('views').focus({preventScroll: true}); // what was pressed is gone
+    byId('views').focus({preventScroll: true}); // the pressed button is gone
     scrollTo(0, 0);
   }
 

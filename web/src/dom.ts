@@ -4,7 +4,7 @@ export const byId = <T extends HTMLElement>(id: string) => document.getElementBy
 export function colour(name: string): string {
   const key = `${name} ${document.documentElement.dataset['theme']}`;
   const found = colours.get(key) ?? getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-  colours.set(key, found); // a chart asks for hundreds, and each question is a computation of styles
+  colours.set(key, found); // because a chart needs hundreds, and each lookup computes styles
   return found;
 }
 const colours = new Map<string, string>();

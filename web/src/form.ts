@@ -11,13 +11,13 @@ interface Complaint {
   id: string;
   text: string;
 }
-type Complaints = ReadonlyMap<string, Complaint[]>; // by the pointer of the field they stand at
+type Complaints = ReadonlyMap<string, Complaint[]>; // by the pointer of their field
 const none: Complaints = new Map();
 
 const root = () => document.getElementById('form');
 const nodeAt = (attribute: string, pointer: string, tag = '') => root()?.querySelector<HTMLElement>(`${tag}[data-${attribute}="${CSS.escape(pointer)}"]`);
 
-/** The field of a pointer, or of what holds it. */
+/** Returns the field of a pointer, or of its nearest container. */
 function nearest(pointer: string): HTMLElement | null {
   for (let to = pointer; ; to = to.slice(0, to.lastIndexOf('/'))) {
     const found = nodeAt('pointer', to) ?? nodeAt('holds', to, 'select') ?? nodeAt('holds', to);
@@ -25,7 +25,7 @@ function nearest(pointer: string): HTMLElement | null {
   }
 }
 
-/** The request that is filled in. Values are never checked here: the service is asked, and names the field. */
+/** The request in the form. Never checks values: the service does, and names the field. */
 export class Form {
   /** What the fields are drawn of; what is typed meanwhile is in `body` and in the fields themselves. Of another `build` they are drawn anew. */
   readonly drawn = signal<{schema: Schema; body: Row; build: number}>({schema: {}, body: {}, build: 0});
@@ -34,7 +34,7 @@ export class Form {
   /** The request as the service understood it: its defaults are the fields' placeholders. */
   readonly echo = signal<Row>({});
   readonly complaints = signal(none);
-  readonly folds = new Map<string, boolean>(); // what was opened or closed by hand, by pointer
+  readonly folds = new Map<string, boolean>(); // opened or closed by hand, by pointer
   private towards: string | undefined;
 
   constructor(
@@ -51,7 +51,10 @@ export class Form {
     this.complaints.value = none;
   }
 
-  /** `towards`: the first field in what was made, or what is nearest to what is gone, has the focus then; else it stays. */
+  /**
+   * `towards`: then the first field in the new part, or the nearest to the removed one, gets the
+   * focus; else it stays.
+   */
   replace(body: Row, towards?: string): void {
     this.body = body;
     this.history.record(body);
@@ -73,7 +76,7 @@ export class Form {
     this.redraw(step.field, {...this.drawn.value, build: this.drawn.value.build + 1});
   }
 
-  /** The fields stand as they were drawn. */
+  /** Keeps the fields as they were drawn. */
   stands(): void {
     const {towards} = this;
     this.towards = undefined;
@@ -96,7 +99,7 @@ export class Form {
     this.put(pointer, undefined);
   }
 
-  /** Each at the field that a problem names, or at what holds it. */
+  /** Shows each at the field that a problem names, or at its container. */
   complain(issues: Issue[]): void {
     const found = new Map<string, Complaint[]>();
     issues.forEach((issue, index) => {
@@ -107,7 +110,7 @@ export class Form {
     this.complaints.value = found.size ? found : none;
   }
 
-  /** Brings the field of a pointer, or of what holds it, into view. */
+  /** Brings the field of a pointer, or of its container, into view. */
   focus(pointer: string): void {
     const input = nearest(pointer);
     if (!input) return;
@@ -117,7 +120,10 @@ export class Form {
   }
 }
 
-/** Gives every value the room to be read whole: a field the whole line, a cell of a table what it needs. */
+/**
+ * Gives every value enough room to be read whole: a field gets the whole line, a cell of a table
+ * its needed width.
+ */
 export function roomy(inputs: Iterable<Element>): void {
   const texts = [...inputs].filter((input): input is HTMLInputElement => input instanceof HTMLInputElement && input.type === 'text');
   for (const input of texts) {
@@ -179,7 +185,7 @@ export function listed(text: string): Json | undefined {
   }
 }
 
-/** Stretches of one kind: what it is, from where, up to where. */
+/** Returns runs of equal kinds: the kind, its start, its end. */
 export function runsOf<T>(kinds: T[]): [T, number, number][] {
   const out: [T, number, number][] = [];
   kinds.forEach((kind, i) => {

@@ -5,7 +5,7 @@ import {about, choice, isWord, holder, label, lastKey, number, plain, sentence, 
 
 export const called = (pointer: string) => label(lastKey(pointer), holder(pointer));
 
-/** What a field is, its range and its default. */
+/** Returns the meaning of a field, its range and its default. */
 export function hintOf(schema: Schema, pointer: string): string {
   const mark = unit(lastKey(pointer));
   const of = (value: number) => `${Math.abs(value) < 1e-6 ? 0 : Number(value.toPrecision(4))}${mark && mark !== '°' ? ' ' : ''}${mark}`;
@@ -18,7 +18,7 @@ export function hintOf(schema: Schema, pointer: string): string {
   return [`${sentence(called(pointer))}.`, about(lastKey(pointer), holder(pointer)), sentence(told), range, otherwise].filter(Boolean).join(' ');
 }
 
-/** What counts where nothing is entered. */
+/** Returns the value that applies if nothing is entered. */
 export const offered = (value: Json): string => {
   if (typeof value === 'number') return String(Number(value.toPrecision(6)));
   return Array.isArray(value) ? value.map(offered).join(', ') : choice(value);
@@ -27,7 +27,7 @@ export const offered = (value: Json): string => {
 /** A value as a refusal repeats it: names that people enter stay as they are. */
 export const got = (value: Json) => (typeof value === 'string' ? (isWord(value) ? choice(value) : `“${value}”`) : offered(value));
 
-/** What a problem says of a field. */
+/** Returns a problem's text for a field. */
 export function said(issue: Issue): string {
   const code = choice(issue.code);
   const bound = typeof issue.limit === 'number' ? number(issue.limit) : issue.limit;

@@ -1,4 +1,4 @@
-// Reads models beside the page, so that no file holds it up. One order, one answer.
+// Reads models outside the page's thread, so that no file blocks it. One order, one answer.
 import * as importer from './importer';
 import type {Order, Told} from './reading';
 import {kinds, text} from './model';

@@ -4,7 +4,7 @@ export type Row = {[key: string]: Json};
 
 export const isRow = (value: unknown): value is Row => typeof value === 'object' && value !== null && !Array.isArray(value);
 
-/** The objects of a list; of what is no list, none. */
+/** Returns the objects of a list; [] if it is not a list. */
 export const rowsOf = (value: unknown) => (Array.isArray(value) ? value.filter(isRow) : []);
 
 export const clone = <T>(value: T): T => JSON.parse(JSON.stringify(value)) as T;

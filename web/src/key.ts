@@ -1,9 +1,12 @@
-/** The key of a service that asks for one: in this page's memory alone, in no storage, address or link. */
+/**
+ * The key of a service that requires one: only in this page's memory, in no storage, address or
+ * link.
+ */
 let key = '';
 let count = 0;
 
 export const keyed = () => key !== '';
-/** How many keys were given: the form that asks is another after each. */
+/** Number of given keys, so that the form is new after each. */
 export const tried = () => count;
 export function give(given: string): void {
   key = given;

@@ -10,7 +10,9 @@ export function listen(link: string, listener: Listener): () => void {
   return () => group.delete(listener);
 }
 
-/** Views move their own cursor while told; what they say meanwhile is an echo. */
+/**
+ * Moves the cursor. Views move their own meanwhile, so their reports are echoes and are ignored.
+ */
 export function point(link: string, index: number | null): void {
   if (quiet || last.get(link) === index) return;
   last.set(link, index);
@@ -19,7 +21,7 @@ export function point(link: string, index: number | null): void {
   quiet = false;
 }
 
-/** What is chosen stays when the cursor goes: a group of its own. */
+/** The selection stays when the cursor leaves: a separate group. */
 export const chosen = (link: string) => `${link}, chosen`;
 
 /** Nothing is pointed at, nor chosen. */

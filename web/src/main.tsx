@@ -34,7 +34,7 @@ async function begin(): Promise<void> {
   }
 }
 
-root.replaceChildren(); // what stood there until this was loaded
+root.replaceChildren(); // placeholders until this was loaded
 render(
   <Shell>
     <p class="waiting">Asking the service …</p>

@@ -1,7 +1,7 @@
 import type {Imported, LengthUnit, Size} from './importer';
 
 export type Importer = typeof import('./importer');
-/** What a file does not tell, by the name of its control. */
+/** Values that a file lacks, by the name of their control. */
 export type Answers = Record<string, string>;
 export interface Question {
   key: string;
@@ -25,7 +25,7 @@ const unitAnswer = (answers: Answers): {unit?: LengthUnit} => (answers['unit'] ?
 
 const merge: Question = {key: 'merge', text: 'Members that go on in line are one piece', check: true};
 const merged = ({merge: said}: Answers): {merge_in_line?: true} => (said ? {merge_in_line: true} : {});
-const most = 30; // bores that are asked for one by one
+const most = 30; // number of bores that are offered one by one
 
 /** "114.3x6.3" in mm, or a name that the service lists. */
 function sizeOf(said: string | undefined): Size | undefined {
@@ -49,7 +49,7 @@ function pointOf(said: string): [number, number, number] {
   return [x, y, z];
 }
 
-/** Bores that are not certain, with what they probably are. */
+/** Bores that are not certain, with their probable meanings. */
 function boreQuestions(importer: Importer, file: string): Question[] {
   const {asks} = importer.fromPcf(file);
   const bores = asks.filter(({option}) => option === 'bore').slice(0, most);

@@ -1,6 +1,6 @@
 import {sentence} from './words';
 
-/** What the pages are called, in their order. */
+/** Names of the pages, in their order. */
 const endpointNames: Record<string, string> = {
   'bevel-tables': 'Cut and bevel',
   intersections: 'Intersection',
@@ -17,7 +17,7 @@ const endpointNames: Record<string, string> = {
 export const endpointOrder = Object.keys(endpointNames);
 export const endpointName = (id: string) => endpointNames[id] ?? sentence(id.replace(/-/g, ' '));
 
-/** Of examples whose file's name tells a stranger nothing. */
+/** Names of examples whose file names are not self-explanatory. */
 const exampleNames: Record<string, string> = {
   'bevel-tables/source-000-table-1': 'Four tubes at one node, from a published table',
   'bevel-tables/source-000-table-1-as-published': 'The same four tubes, with the published angles',
@@ -65,7 +65,7 @@ export const exampleName = (endpoint: string, name: string) =>
 const short: Record<string, string> = {outer_diameter_mm: 'Ø', inclination_deg: 'incl.', clocking_deg: 'clock'};
 export const brief = (name: string, otherwise: string) => short[name] ?? otherwise;
 
-/** What stands under the pictures. */
+/** Tabs under the pictures. */
 export const tabs: [string, string][] = [
   ['proof', 'Proof'],
   ['motion', 'Pulses and speed'],

@@ -13,7 +13,7 @@ export interface Lead {
   body: Row;
 }
 
-/** How a member is cut where nothing says so yet. */
+/** Default cut of a member. */
 export const usualCut: Row = {
   root_surface: 'inner',
   groove: {rule: 'half_dihedral'},

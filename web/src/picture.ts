@@ -2,25 +2,31 @@ import type {Json, Row} from './json';
 import type {Warning} from './service';
 import type {Term} from './words';
 
-/** What there is to see of an answer, as data: the pictures of one endpoint are a function from request and answer to this. */
+/**
+ * The visible content of an answer, as data: the pictures of one endpoint are a function from
+ * request and answer to this.
+ */
 export interface Picture {
   solid?: Solid;
   charts: Chart[];
   figures: Figure[];
   tables?: Table[];
-  /** What the cursor reads at a point, for the strip under the solid. */
+  /** Values at the cursor's point, for the strip under the solid. */
   readout?: (index: number, link: string) => [Term, string][];
-  /** What the answer comes to, for the verdict. */
+  /** Summary of the answer, for the verdict. */
   said?: string;
   inspected?: Inspected;
-  /** What the cursor of a link is played along. */
+  /** The path along which the cursor of a link is played. */
   played?: Played;
   section?: Section;
   /** There is a before and an after to switch between. */
   beforeAfter?: boolean;
 }
 
-/** What can be chosen in lists beside the solid and in it. The places of items go on from list to list: the cursor and the choice of `link` are such places. */
+/**
+ * Selectable items in lists next to the solid and in it. Indices of items continue from list to
+ * list: the cursor and the selection of `link` are such indices.
+ */
 export interface Inspected {
   link: string;
   lists: {id: string; title: string; items: Item[]}[];
@@ -41,7 +47,7 @@ export interface Facts {
   opens?: {name: string; endpoint: string; body: Row};
 }
 
-/** What a plane through the cursor's point shows, mm, in the box from `low` to `high`. */
+/** Section by a plane through the cursor's point, mm, in the box from `low` to `high`. */
 export interface Section {
   link: string;
   count: number;
@@ -55,7 +61,7 @@ export interface SectionLine {
   dashed?: boolean;
 }
 
-/** The cursor's points in time, and what happens at some of them. */
+/** The cursor's points in time, and the events at some of them. */
 export interface Played {
   link: string;
   seconds: number[];
@@ -130,7 +136,10 @@ export interface Frame {
   z: Vector;
 }
 
-/** How far the edges of a cut stand off their partner, mm; instead of the bevel it tints the cut, up to `most`. */
+/**
+ * Distances of the edges of a cut from their partner, mm; they tint the cut instead of the bevel,
+ * up to `most`.
+ */
 export interface Gaps {
   inner: number[];
   outer: number[];
@@ -168,7 +177,7 @@ export interface HoledTube {
   to: EndCurve;
   holes: {outer: {phi: number[]; z: number[]}; inner: {phi: number[]; z: number[]}; b: number[]; gaps?: Gaps}[];
 }
-/** Members of a frame: parts, each in its own frame, and where they stand. */
+/** Members of a frame: parts, each in its own frame, and their positions. */
 export interface Assembly {
   parts: HoledTube[];
   members: {name: string; part: number; frame: Frame; tone: string}[];
@@ -188,7 +197,7 @@ export interface Ribbon {
   b: Vector[];
   tone: string;
 }
-/** What cuts, at every point of the cursor: a torch along a line of the wall, or a cone. */
+/** The tool at every point of the cursor: a torch along a line of the wall, or a cone. */
 export type Tool =
   | {kind: 'torch'; inner: Vector[]; outer: Vector[]; size: number}
   | {kind: 'cone'; tip: number; back: number; length: number; poses: {tip: Vector; axis: Vector}[]; before?: {tip: Vector; axis: Vector}[]}; // radii at the face and at the spindle's end
@@ -202,16 +211,16 @@ export interface Solid {
   partners: Partner[];
   ribbons?: Ribbon[];
   lines?: {points: Vector[]; tone: string}[];
-  /** Seen from here unless turned: the direction to the eye, and what is up. */
+  /** Initial view: the direction to the eye, and the upward direction. */
   eye?: Vector;
   up?: Vector;
   centre: Vector;
   size: number;
-  /** What it shows, for those who do not see it. */
+  /** Text alternative of the picture. */
   told?: string;
-  /** What its colours mean. */
+  /** Meaning of its colours. */
   legend?: {tone: string; text: string}[];
-  /** What the two ends of the tint are. */
+  /** Texts of the two ends of the tint. */
   scale?: [string, string];
   /** The bevels that the tint spans, in degrees. */
   tint?: [number, number];

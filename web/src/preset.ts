@@ -9,7 +9,10 @@ export const pressed = (body: Row) => body['preset'] === word;
 export const offered = (contract: Contract, request: Schema | undefined) =>
   contract.branches(request ?? {}).some((branch) => branch.properties?.['preset'] !== undefined);
 
-/** The objects of a request that say how something is cut: itself, its ends and holes; a frame's defaults, joints and ends. */
+/**
+ * Returns the objects of a request that define a cut: itself, its ends and holes; a frame's
+ * defaults, joints and ends.
+ */
 function cuts(body: Row): Row[] {
   const within = (key: string) => (Array.isArray(body[key]) ? body[key] : isRow(body[key]) && key === 'ends' ? Object.values(body[key]) : []);
   return [body, body['defaults'] ?? null, ...['ends', 'holes', 'joints'].flatMap(within)].filter(isRow);

@@ -1,7 +1,7 @@
 import type {Imported} from './importer';
 import type {Answers, Question} from './model';
 
-/** What is to be done with a file: without answers its questions are wanted, else what it holds. */
+/** An order to read a file: without answers it returns questions, else the content. */
 export interface Order {
   ending: string;
   file: Uint8Array;
@@ -36,7 +36,7 @@ export class Reading {
     });
   }
 
-  /** What was ordered last is answered no more. */
+  /** Cancels the last order's answer. */
   end(): void {
     this.drop?.();
     this.drop = undefined;

@@ -46,7 +46,7 @@ interface Document {
   components: {schemas: Record<string, Schema>; parameters: Record<string, {name: string; description?: string; schema: Schema}>};
 }
 
-// What a new field starts with, where the contract leaves it open: a joint that can be computed.
+// Initial value of a new field, if the contract leaves it open: a joint that can be computed.
 const beginnings: Record<string, Json> = {
   outer_diameter_mm: 60,
   wall_mm: 4,
@@ -178,7 +178,7 @@ export class Contract {
     return score;
   }
 
-  /** "tube · outer Ø, axis": what tells a branch from its neighbours. */
+  /** Returns "tube · outer Ø, axis": the fields that distinguish a branch from the others. */
   branchName(branches: Schema[], branch: Schema): string {
     if (branch.title) return branch.title;
     if ('const' in branch) return choice(branch.const);
@@ -196,7 +196,7 @@ export class Contract {
     return [alike ? '' : kind, by].filter(Boolean).join(' · ') || `no ${label(this.telling(branches))}`;
   }
 
-  /** The field that makes some branches what they are. */
+  /** Returns the field that distinguishes some branches. */
   private telling(branches: Schema[]): string {
     const told = (branch: Schema) => (branch.required ?? []).find((key) => 'const' in this.resolve(branch.properties?.[key] ?? {}));
     return branches.map(told).find((key) => key !== undefined) ?? 'kind';
@@ -223,7 +223,7 @@ export class Contract {
     return inner.length > 0 && inner.every((each) => this.fixed(each));
   }
 
-  /** A value to start with; what `old` has under the same names is kept. */
+  /** Returns an initial value; keeps the values of `old` under the same names. */
   make(given: Schema, old?: Json, name = '', within = ''): Json {
     const schema = this.resolve(given);
     if ('const' in schema) return schema.const as Json;
@@ -253,7 +253,7 @@ export class Contract {
 
   private makeRow(schema: Schema, old: Row, name: string): Row {
     const made: Row = {};
-    // Of fields that stand for each other the first, unless another is there.
+    // Of alternative fields the first, unless another is present.
     const ways = (schema.allOf ?? []).flatMap(({oneOf}) =>
       oneOf?.some((way) => way.required?.every((key) => key in old)) ? [] : (oneOf?.[0]?.required ?? []),
     );

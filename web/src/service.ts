@@ -9,11 +9,11 @@ export type Machine = {name: string; machine: Row};
 export type Tube = Contract['Tubes']['tubes'][number];
 
 export type Issue = Contract['Problem']['errors'][number];
-/** The service's own, or what is said of it here: that nothing was answered, or nothing that can be read. */
+/** The service's own, or one made here: no answer came, or one that cannot be read. */
 export type Problem = Partial<Omit<Contract['Problem'], 'code'>> & {code: Contract['Problem']['code'] | 'unreachable' | 'unreadable_answer'; title: string};
 export type Check = Contract['Verification']['checks'][number];
 export type Warning = Contract['Warnings'][number];
-/** Of whichever endpoint: its pictures know what is in the result. */
+/** Of any endpoint: its pictures know the content of the result. */
 export interface Answer {
   job: Contract['Job'];
   request: Row;
@@ -27,7 +27,7 @@ export interface Answer {
 /** As the service judges a check: a value under its limit holds, however far under; NaN does not. */
 export const holds = (check: Check) => check.value <= check.limit;
 
-/** What the service said, either way, and how long it took. */
+/** The service's answer or problem, and its time. */
 export interface Reply {
   answer?: Answer;
   problem?: Problem;
@@ -36,7 +36,7 @@ export interface Reply {
 
 export const path = (endpoint: string) => `/v1/${endpoint}`;
 
-/** Nothing answered: no refusal, and nothing that changing the request would mend. */
+/** No answer came: this is not a refusal, and no change of the request would fix it. */
 export const away: Problem = {
   code: 'unreachable',
   status: 0,
@@ -53,7 +53,7 @@ export async function fetched<T>(address: string): Promise<T> {
   return (await reply.json()) as T;
 }
 
-/** `signal` breaks it off; what is returned then is of no use. */
+/** `signal` cancels it; then ignore the result. */
 export async function ask(endpoint: string, body: Json, signal?: AbortSignal): Promise<Reply> {
   const start = performance.now();
   let reply: Response, text: string;
@@ -66,7 +66,8 @@ export async function ask(endpoint: string, body: Json, signal?: AbortSignal): P
     });
     text = await reply.text();
   } catch {
-    return {problem: away, milliseconds: performance.now() - start}; // a browser says no more than "TypeError"
+    // a browser gives only "TypeError"
+    return {problem: away, milliseconds: performance.now() - start};
   }
   const milliseconds = performance.now() - start;
   try {
@@ -74,7 +75,7 @@ export async function ask(endpoint: string, body: Json, signal?: AbortSignal): P
     if (reply.ok) return {answer: json as unknown as Answer, milliseconds};
     return {problem: json as unknown as Problem, milliseconds};
   } catch {
-    // a proxy's page, say
+    // for example a proxy's page
     return {problem: {code: 'unreadable_answer', title: `The answer (status ${reply.status}) is no JSON.`, status: reply.status}, milliseconds};
   }
 }

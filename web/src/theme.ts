@@ -16,7 +16,7 @@ function stored(): string | null {
 }
 const chosen = signal(stored());
 
-/** Dark or light: what was chosen last, else what the system says. */
+/** Dark or light: the last choice, else the system's. */
 export const dark = computed(() => (chosen.value ? chosen.value === 'dark' : wished.value));
 effect(() => {
   document.documentElement.dataset['theme'] = dark.value ? 'dark' : 'light';

@@ -43,7 +43,7 @@ export const spelled = (text: string) => (text === 'mm3' ? 'mm³' : unit(`_${tex
 
 const places: Record<string, number> = {mm: 2, '°': 1, '%': 1, ms: 1, µs: 0, µm: 2, kg: 2, 'mm/min': 0, 'm/min': 1, 'mm/s': 2, '1/h': 1};
 const most = 6; // significant digits that anybody is shown
-const rounding = 1e-9; // below it a length or an angle is what rounding left of 0
+const rounding = 1e-9; // below it, a length or an angle is rounding error
 
 /** The one way that numbers are written for people: 0.01 mm, 0.1°, a time to a digit that means something; without the unit. */
 export function number(value: number, of = ''): string {
@@ -58,7 +58,7 @@ export function number(value: number, of = ''): string {
   return short >= 1e15 ? short.toExponential() : String(short);
 }
 
-/** What is no 0 and would read as one. */
+/** A nonzero value that would read as 0. */
 const tiny = (value: number) => (Math.abs(value) < 0.001 ? '< 0.001' : String(Number(value.toPrecision(1))));
 
 /** A coefficient, which may be as small as it likes: six digits and a power of ten. */
@@ -74,21 +74,24 @@ export const residual = (value: number, of: string) => (value !== 0 && Math.abs(
 export const withUnit = (value: number, of: string) => beside(number(value, of), of);
 export const beside = (text: string, of: string) => `${text}${!of || of.startsWith('°') ? '' : ' '}${of}`;
 
-/** Parts of a whole are told in per cent, volumes in cm³. */
+/** Fractions are shown in per cent, volumes in cm³. */
 const scales: Record<string, number> = {'%': 100, 'cm³': 0.001};
 export const scaled = (name: string, value: number) => value * (scales[unit(name)] ?? 1);
 /** A field's value, and with its unit. */
 export const shown = (name: string, value: number) => number(scaled(name, value), unit(name));
 export const measured = (name: string, value: number) => withUnit(scaled(name, value), unit(name));
 
-/** Ticks of an axis: as many places as tell one from the next. */
+/** Returns the ticks of an axis, with enough places to distinguish them. */
 export function ticks(values: number[]): string[] {
   const step = values.length > 1 ? Math.abs((values[1] as number) - (values[0] as number)) : 1;
   const digits = Math.min(8, (Number(step.toPrecision(3)).toFixed(8).replace(/0+$/, '').split('.')[1] ?? '').length);
   return values.map((value) => String(Number(value.toFixed(digits))));
 }
 
-/** What a name on the wire is called, and its sentence: docs/glossary.md. `within` is the name of what holds it. */
+/**
+ * Returns the name of a wire name, and its sentence: docs/glossary.md. `within` is the name of its
+ * container.
+ */
 const entry = (key: string, within: string) => words.fields[`${within}.${key}`] ?? words.fields[key];
 export const label = (key: string, within = '') => entry(key, within)?.[0] ?? spaced(key);
 export const about = (key: string, within = '') => entry(key, within)?.[1] ?? '';
@@ -97,7 +100,7 @@ const spaced = (text: string) => text.replace(/_/g, ' ');
 /** Begins with a capital, but for a symbol, which has its own case. */
 export const sentence = (text: string) => (/^[a-z][a-z’'-]/.test(text) ? text.charAt(0).toUpperCase() + text.slice(1) : text);
 
-/** A text that is told more about where one points at it. */
+/** A text with more details on hover. */
 export type Term = string | {text: string; about: string};
 export const text = (term: Term) => (typeof term === 'string' ? term : term.text);
 export const hint = (term: Term) => (typeof term === 'string' ? undefined : term.about || undefined);
@@ -128,7 +131,7 @@ export function check(name: string): {name: string; about: string; kind: Kind} {
   return {name: spaced(name), about: '', kind: 'checks'};
 }
 
-/** The name of the nearest object or list that holds what a pointer names. */
+/** Returns the name of the nearest object or list that contains a pointer's target. */
 export const holder = (pointer: string) =>
   keys(pointer)
     .slice(0, -1)

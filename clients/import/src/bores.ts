@@ -29,14 +29,14 @@ const conventions: {told: string; unit: 'INCH' | 'MM'; fits(value: number, each:
   {told: 'DN', unit: 'INCH', fits: (value, {dn}) => close(value, dn)},
 ];
 
-/** A bore that is not nominal in its unit, and what it probably means, the likeliest first. */
+/** A bore that is not nominal in its unit, and its probable meanings, the most likely first. */
 export interface Unrecognised {
   value: number;
   count: number;
   likely: {size: string; because: string}[];
 }
 
-/** Judges the bores of a file together: what explains more of them is likelier. */
+/** Evaluates the bores of a file together: a meaning that explains more of them is more likely. */
 export function unrecognised(counts: Map<number, number>, unit: 'INCH' | 'MM'): Unrecognised[] {
   const values = [...counts.keys()];
   const odd = values.filter((value) => !boreOf(value, unit));
@@ -57,7 +57,10 @@ export function unrecognised(counts: Map<number, number>, unit: 'INCH' | 'MM'): 
 
 const listed = ({name, outer_diameter_mm, wall_mm}: Catalogued): Bore => ({name, outer_diameter_mm, wall_mm});
 
-/** What a map says of a bore: "NPS 6", "DN 150", "168.3" (outside diameter in mm), "168.3x7.11" or a listed size. */
+/**
+ * Returns the bore of a map's text: "NPS 6", "DN 150", "168.3" (outside diameter in mm),
+ * "168.3x7.11" or a listed size.
+ */
 export function boreSaid(said: string): Bore | undefined {
   const text = said.trim().slice(0, 64);
   const size = sizeNamed(text);

@@ -1,6 +1,6 @@
 import {decimal} from './units.js';
 
-/** What is read of a drawing's entity; lengths in its unit, angles in degrees. */
+/** The parsed values of a drawing's entity; lengths in its unit, angles in degrees. */
 export interface Drawn {
   type: string;
   handle: string;
@@ -71,7 +71,9 @@ function take(entity: Drawn, {code, value}: Group): void {
   else if (code >= 210 && code <= 230 && code % 10 === 0) entity.extrusion[Math.floor(code / 10) - 21] = number;
 }
 
-/** The entities of a drawing in DXF, in one pass; what is within blocks and tables is not among them. */
+/**
+ * Returns the entities of a drawing in DXF, in one pass; without those within blocks and tables.
+ */
 export function drawingOf(text: string): Drawing {
   const drawing: Drawing = {unit: Number.NaN, entities: []};
   let [section, variable] = ['', ''];

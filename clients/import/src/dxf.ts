@@ -5,7 +5,7 @@ import {distance, times, type Vector} from './geometry.js';
 import {lengths, type LengthUnit} from './units.js';
 
 export interface DxfOptions extends FrameOptions {
-  /** Of the drawing, where it does not tell ($INSUNITS). */
+  /** Of the drawing, if it has no $INSUNITS. */
   unit?: LengthUnit;
 }
 
@@ -117,7 +117,7 @@ function parsed(text: string): Drawing {
   }
 }
 
-/** The layers that have something drawn on them: what sizes are asked for. */
+/** Returns the layers with entities: those that need sizes. */
 export function layersOf(text: string): string[] {
   return [
     ...new Set(
@@ -128,7 +128,7 @@ export function layersOf(text: string): string[] {
   ].sort();
 }
 
-/** $INSUNITS of a drawing; none where it tells none that is known. */
+/** Returns $INSUNITS of a drawing; undefined if it is missing or unknown. */
 export const unitOf = (text: string): LengthUnit | undefined => units[parsed(text).unit];
 
 function every(text: string, sizesByLayer: Record<string, Size>, found: Found, options: DxfOptions): void {

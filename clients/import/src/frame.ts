@@ -1,11 +1,14 @@
 import {limits} from './limits.js';
 import {cross, distance, dot, length, minus, times, unit, type Vector} from './geometry.js';
 
-/** What all importers give: a request of POST /v1/frames and what of the file is not in it. `frame` is null where no member was found. */
+/**
+ * The result of all importers: a request of POST /v1/frames and the items of the file that are not
+ * in it. `frame` is null if no member was found.
+ */
 export interface Imported {
   frame: Frame | null;
   notUnderstood: NotUnderstood[];
-  /** What the file does not state and the import must know: options to set before the next run. */
+  /** Values that the file lacks and the import needs: options to set before the next run. */
   asks: Ask[];
   /** Where members and others come from, if the file has names of its own for them. */
   sources: Source[];
@@ -20,7 +23,10 @@ export interface NotUnderstood {
   guid?: string;
 }
 
-/** An option that is missing. `key` is what it is stated for, `likely` the probable values, the likeliest first: nothing is assumed. */
+/**
+ * A missing option. `key` is the item that needs it, `likely` the probable values, the most likely
+ * first: no value is assumed.
+ */
 export interface Ask {
   option: 'bore' | 'schedule' | 'unit' | 'nodes' | 'decimal' | 'column';
   key?: string;
@@ -29,7 +35,7 @@ export interface Ask {
   text: string;
 }
 
-/** An id of the frame, and the entity that it stands for. */
+/** An id of the frame, and the entity that it represents. */
 export interface Source {
   id: string;
   entity: string;
@@ -59,7 +65,7 @@ export interface Joint {
   hole?: 'cut';
 }
 
-/** A request of POST /v1/frames. What no file tells is as `FrameOptions` say. */
+/** A request of POST /v1/frames. Values that no file contains come from `FrameOptions`. */
 export interface Frame {
   members: Member[];
   others?: Other[];
@@ -72,7 +78,7 @@ export interface Frame {
 }
 
 export interface FrameOptions {
-  /** An end joins what it comes as near as this to, in mm (`connect` of the request). 5 without it. */
+  /** An end joins bodies within this distance, in mm (`connect` of the request). Default 5. */
   within_mm?: number;
   /** This point of the file, in mm, is the frame's origin: for coordinates of a country, where the service takes a kilometre. */
   origin_mm?: Vector;
@@ -82,7 +88,10 @@ export interface FrameOptions {
   fields?: Record<string, unknown>;
 }
 
-/** What a reader found. An other's length is how far it goes along its axis, of which the request knows no end; `from` is its entity. */
+/**
+ * The result of a reader. An other's length is its extent along its axis, which the request does
+ * not contain; `from` is its entity.
+ */
 export interface Found {
   members: Member[];
   others: {other: Other; length_mm?: number; from?: {id: string; type: string; guid?: string}}[];
@@ -103,13 +112,14 @@ const sampled = {
   sampling: {tolerance_mm: 0.1},
 };
 
-/** Lengths lose what came in by a change of units: 0.1143 m is 114.3 mm. */
+/** Removes the rounding errors of a change of units: 0.1143 m is 114.3 mm. */
 export const exact = (mm: number): number => Number(mm.toPrecision(12));
 const tidy = (v: number): number => Math.round(v * 1e9) / 1e9 + 0;
 /** To 1e-9: of points in mm, of directions as they are. */
 export const rounded = (v: Vector): Vector => [tidy(v[0]), tidy(v[1]), tidy(v[2])];
 
-const unwanted = /[\p{C}\p{Zl}\p{Zp}\u{FFFC}-\u{10FFFF}]+/gu; // what the contract takes for no text
+// characters that the contract does not permit in texts
+const unwanted = /[\p{C}\p{Zl}\p{Zp}\u{FFFC}-\u{10FFFF}]+/gu;
 const longest = 64; // characters of an id, by the contract
 
 /** Gives ids: the name a file has where it is one of its own, else that name and `mark`, else `mark` and a number. */
@@ -188,7 +198,10 @@ const sized = (m: Member): string => ('size' in m ? m.size : `${m.outer_diameter
 const near = 1e-3; // mm, rad: of ends that meet in line
 const crowd = 64; // ends at one place: no node has more
 
-/** Ends of alike tubes that meet in line are face to face: by nearness alone they would be said to be parallel. */
+/**
+ * Ends of equal tubes that meet in line are face to face: by only nearness they would be reported
+ * as parallel.
+ */
 function inLine(members: Member[]): Joint[] {
   const cells = new Map<string, [Member, Vector, Vector][]>();
   const joints = new Map<string, Joint>();
@@ -237,7 +250,10 @@ function boxesTouched(found: Found, joints: Joint[]): {others: Found['others']; 
   return {others, rest};
 }
 
-/** If the service would take fewer: what joins nothing is left out first, then the frame is too large and the list states it. */
+/**
+ * If the service takes fewer: first omits bodies that join nothing, then the frame is too large and
+ * the list states it.
+ */
 function fitted(found: Found, others: Found['others'], joints: Joint[]): Found['others'] {
   if (others.length <= limits.others) return others;
   const joined = new Set(joints.flatMap(({between}) => between));
@@ -280,7 +296,8 @@ function tooMany({notUnderstood, asks, sources}: Found): Imported {
   return {frame: null, notUnderstood: listed([...notUnderstood, {id: 'file', type: 'frame', reason}]), asks, sources};
 }
 
-const farthest = 1e9; // mm: beyond it no coordinate is one, and 1e-9 mm are not told apart
+// mm: beyond it, a coordinate is not plausible and 1e-9 mm are lost in rounding
+const farthest = 1e9;
 const isPoint = (p: Vector): boolean => p.every((v) => Math.abs(v) <= farthest);
 const isLength = (v: number): boolean => v > 0 && v <= farthest;
 const isMember = (m: Member): boolean => isPoint(m.start_mm) && isPoint(m.end_mm) && ('size' in m || (isLength(m.outer_diameter_mm) && isLength(m.wall_mm)));
@@ -292,7 +309,7 @@ function isOther(other: Other): boolean {
   return isPoint(other.axis.point_mm) && isPoint(other.axis.direction) && sizes.every(isLength);
 }
 
-/** Numbers so large that they are none are listed, with what is joined to them. */
+/** Lists numbers that are implausibly large, with the members joined to them. */
 function possible(found: Found): Found {
   const lost = [...found.members.filter((each) => !isMember(each)), ...found.others.map(({other}) => other).filter((each) => !isOther(each))].map(({id}) => id);
   if (lost.length === 0) return found;
@@ -308,7 +325,7 @@ function possible(found: Found): Found {
   };
 }
 
-/** The request of what was found, and what was not. */
+/** Returns the request of the found items, and the list of the others. */
 export function frameOf(given: Found, options: FrameOptions, format: string): Imported {
   const found = possible(options.origin_mm ? moved(given, options.origin_mm) : given);
   found.notUnderstood.push(...found.asks.map(({text}) => ({id: 'file', type: format, reason: text})));

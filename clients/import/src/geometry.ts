@@ -18,7 +18,7 @@ export const length = (a: Vector): number => Math.hypot(a[0], a[1], a[2]);
 export const distance = (a: Vector, b: Vector): number => length(minus(a, b));
 export const cross = (a: Vector, b: Vector): Vector => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
-/** The direction of a vector; of none, none. */
+/** Returns the direction of a vector; undefined for a zero vector. */
 export function unit(a: Vector): Vector | undefined {
   const long = length(a);
   return long > 0 && Number.isFinite(long) ? times(a, 1 / long) : undefined;

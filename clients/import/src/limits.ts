@@ -1,4 +1,4 @@
-/** What one import may take, so that no file holds up who opens it. */
+/** Limits of one import, so that no file blocks its user. */
 export const limits = {
   members: 10000, // of a frame, by the contract
   others: 1000, // the same

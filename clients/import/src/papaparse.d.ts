@@ -1,4 +1,4 @@
-// What is used of it. Its published types bring those of node with them, which are wrong in a browser.
+// Declares the used part. Its published types would include node's, which are wrong in a browser.
 declare module 'papaparse' {
   interface Result<T> {
     data: T[];

@@ -1,4 +1,5 @@
-// No file holds an import up: what is endless, nested or huge ends with a line in the list. And garbled files, always the same ones.
+// No file blocks an import: endless, nested or huge ones end with a line in the list. And garbled
+// files, always the same ones.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {fromCsv, fromDxf, fromIfc, fromPcf} from '../dist/index.js';

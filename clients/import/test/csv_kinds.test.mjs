@@ -1,4 +1,5 @@
-// Tables drawn at random: headings, units, marks of decimals and of columns, nodes. What must come of each is known from its making.
+// Tables drawn at random: headings, units, marks of decimals and of columns, nodes. The expected
+// result of each is known from its making.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {fromCsv} from '../dist/index.js';

@@ -1,4 +1,4 @@
-// Inputs from real work, in data/field: what the service makes of each. TUBECUT_SERVER is the binary.
+// Inputs from real work, in data/field: the service's answer to each. TUBECUT_SERVER is the binary.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';

@@ -1,4 +1,5 @@
-// Thirty IFC files whose axes are known: they come back within 1e-6 mm, sizes as they were. And spoilt ones: just what is spoilt is listed.
+// Thirty IFC files whose axes are known: they come back within 1e-6 mm, with equal sizes. And
+// spoilt ones: only the spoilt items are listed.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {catalogue, fromIfc} from '../dist/index.js';
@@ -13,7 +14,7 @@ const read = (text, options) => fromIfc(bytes(text), options);
 /** As numbers; a listed size by its name. */
 const measured = (member) => catalogue.find(({name}) => name === member.size) ?? member;
 
-/** What is wrong with an import, in words; nothing where it is as expected. */
+/** Returns the faults of an import, in words; nothing if it is as expected. */
 function faults({frame, notUnderstood}, {members, others, joints = []}) {
   const out = notUnderstood.map(({id, reason}) => `${id}: ${reason}`);
   if (!frame) return [...out, 'no frame'];
@@ -81,7 +82,7 @@ test('a profile that is turned, shifted or smaller is seen', async () => {
   }
 });
 
-/** Three good beams and between them what is spoilt. */
+/** Three good beams and a spoilt item between them. */
 function spoilt(edit, schema = 'IFC4') {
   const step = new Step(schema);
   step.units('millimetre');

@@ -1,4 +1,5 @@
-// IFC files drawn at random: profiles with voids, structural members, "*", names, listed sizes, rectangular tubes. What must come of each is known.
+// IFC files drawn at random: profiles with voids, structural members, "*", names, listed sizes,
+// rectangular tubes. The expected result of each is known.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {fromIfc} from '../dist/index.js';

@@ -1,11 +1,12 @@
-// PCF files drawn at random: units, conventions of bores, fittings, elbows, taps and olets. What must come of each is known from its making.
+// PCF files drawn at random: units, conventions of bores, fittings, elbows, taps and olets. The
+// expected result of each is known from its making.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {catalogue, fromPcf} from '../dist/index.js';
 import {spool} from './support/spools.mjs';
 
 const apart = (a, b) => Math.hypot(...a.map((v, i) => v - b[i]));
-const near = 2e-3; // mm: what the digits of the files leave
+const near = 2e-3; // mm: rounding error of the files' digits
 const spools = Array.from({length: 240}, (_, i) => spool(i + 1));
 
 test('there are 240 files, with each thing many times', () => {

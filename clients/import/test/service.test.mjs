@@ -1,4 +1,5 @@
-// What is imported is a request of the running service; the command line; what else must agree. TUBECUT_SERVER is the binary.
+// An import is a request of the running service; the command line; other agreements. TUBECUT_SERVER
+// is the binary.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';

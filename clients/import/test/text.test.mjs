@@ -1,4 +1,5 @@
-// PCF, CSV and DXF: axes and sizes as they are written in the file, and what cannot be read by its line, row or handle.
+// PCF, CSV and DXF: axes and sizes as in the file, and unreadable items by their line, row or
+// handle.
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {test} from 'node:test';

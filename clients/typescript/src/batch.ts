@@ -66,7 +66,10 @@ class Waiting {
     return this.#ahead.length;
   }
 
-  /** The next ones; none at the end. For several streams fewer towards the end, so that they end together. */
+  /**
+   * Returns the next jobs; empty at the end. With several streams fewer towards the end, so that
+   * they end together.
+   */
   part(streams: number): Job[] {
     let count = this.fill();
     if (streams > 1) {
@@ -104,7 +107,10 @@ function parsed(text: string): Schemas['BatchReply'] | Schemas['BatchSummary'] {
   }
 }
 
-/** Every job of a part once. What a dead or full replica left, or does not have as it is pinned, is asked of the next. */
+/**
+ * Yields every job of a part once. If a replica dies, is full, or lacks a pinned version, requests
+ * the rest from the next.
+ */
 async function* part(run: Run, jobs: Job[]): AsyncGenerator<Answered> {
   const left = new Map(jobs.map((job) => [job.at, job]));
   const tried = new Set<string>();
@@ -145,7 +151,7 @@ async function* part(run: Run, jobs: Job[]): AsyncGenerator<Answered> {
   }
 }
 
-/** What parts hand to the caller; a full one makes them wait. */
+/** Answers from parts to the caller; if it is full, the parts wait. */
 class Queue<T> {
   readonly #items: T[] = [];
   #change: () => void = () => undefined;
@@ -203,9 +209,11 @@ async function* spread(run: Run, waiting: Waiting, streams: number): AsyncGenera
 }
 
 /**
- * Many jobs, each answered once and as soon as it is done: a DocumentReply where the line names a format. One POST is the work of one replica,
- * so they go in parts, as many at a time as there are replicas: addresses, or names of replicas behind them (a proxy sends every request to
- * another). What a dead or full replica left is sent to the next; what a line pins is asked of others where one refuses it. Returns the summary.
+ * Answers many jobs, each once and as soon as it is done: with a DocumentReply if the line names a
+ * format. One POST is the work of one replica, so they go in parts, one for each replica at a time:
+ * addresses, or names of replicas behind them (a proxy sends every request to another). If a
+ * replica dies or is full, its rest goes to the next; if it refuses a pin, the line goes to others.
+ * Returns the summary.
  */
 export function batch(baseUrl: Addresses, lines: Iterable<BatchLine>, options?: BatchOptions): AsyncGenerator<BatchReply, BatchSummary>;
 export function batch(

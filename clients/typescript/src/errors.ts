@@ -1,9 +1,9 @@
-/** What the client throws. */
+/** The client's errors. */
 import type {components} from './schema.js';
 
 export type Problem = components['schemas']['Problem'];
 
-/** A refusal or failure told by the service: which fields, what they were, what the limits are. */
+/** A refusal or failure reported by the service: the fields, their values and the limits. */
 export class ProblemError extends Error {
   constructor(readonly problem: Problem) {
     super(`${problem.status} ${problem.code}: ${problem.detail}`);
@@ -11,7 +11,7 @@ export class ProblemError extends Error {
   }
 }
 
-/** The answer's body is not what the contract says, or there is none. */
+/** The answer's body does not match the contract, or is missing. */
 export class ContractError extends Error {
   override name = 'ContractError';
 }

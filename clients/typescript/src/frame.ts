@@ -4,9 +4,15 @@ import type {RequestBody, Schemas} from './index.js';
 import {Down, Full, linesOf, Run, type LineOptions} from './lines.js';
 import {Others, refusesPin, RETRYABLE, waitFor, type Addresses} from './replicas.js';
 
-/** What the frame's first line tells: members, joints, cut list, what is not cut. Its parts are still to be made. */
+/**
+ * The frame's first line: members, joints, cut list, the uncut ends. Its parts are still to be
+ * made.
+ */
 export type FrameHead = Schemas['FrameBegun'];
-/** A part, which has the name of the first member that it is: what `/v1/parts` answers, or why there is none. */
+/**
+ * A part, with the name of its first member: the answer of `/v1/parts`, or the reason for its
+ * absence.
+ */
 export type FramePart =
   {id: string; status: 200; answer: Schemas['PartsResponse']; problem?: never} | {id: string; status: number; problem: Problem; answer?: never};
 export interface FrameSummary {items: number; answered: number; refused: number}
@@ -83,9 +89,10 @@ async function* asked(run: Run, body: string, headers: Record<string, string>): 
 }
 
 /**
- * Line by line: the frame, every different part once as it is done, a summary. Each part has a budget of its own, where that of
- * `post(client, '/v1/frames', ...)` is one for all; what needs the finished parts (weld and fit-up of joints, totals) is in that answer alone. What
- * a replica left that died or was full is asked of the next. Leaving the loop ends the work.
+ * Yields line by line: the frame, every different part once as it is done, a summary. Each part has
+ * its own budget, but `post(client, '/v1/frames', ...)` has one for all; values that need the
+ * finished parts (weld and fit-up of joints, totals) are only in that answer. If a replica dies or
+ * is full, requests the rest from the next. If you leave the loop, the work ends.
  */
 export async function* frameLines(baseUrl: Addresses, body: RequestBody<'/v1/frames'>, options: FrameOptions = {}): AsyncGenerator<FrameLine, void> {
   const {jobId, progress} = options;
@@ -105,7 +112,10 @@ export async function* frameLines(baseUrl: Addresses, body: RequestBody<'/v1/fra
   }
 }
 
-/** The lines of a frame, gathered: a part each by its name, which `head.result.members` tells of each member. */
+/**
+ * Returns the lines of a frame, gathered: each part by its name, which `head.result.members` has
+ * for each member.
+ */
 export async function frame(baseUrl: Addresses, body: RequestBody<'/v1/frames'>, options: FrameOptions = {}): Promise<Frame> {
   const parts = new Map<string, FramePart>();
   let made: FrameHead | undefined;

@@ -19,8 +19,9 @@ export type TubecutClient = Client<paths, Media>;
 export type TubecutOptions = Omit<ClientOptions, 'baseUrl' | 'fetch'> & {retry?: RetryOptions};
 
 /**
- * The client of one service: `POST` and `GET` take the contract's paths and check their arguments at compile time. Several addresses are
- * replicas, asked in turn when one is away, full, or has not what a request pins.
+ * Returns the client of one service: `POST` and `GET` take the contract's paths and check their
+ * arguments at compile time. Several addresses are replicas, tried in turn if one is away, full, or
+ * lacks a pinned version.
  */
 export function tubecut(baseUrl: Addresses, {retry, ...rest}: TubecutOptions = {}): TubecutClient {
   const [first = ''] = addressesOf(baseUrl);
@@ -33,7 +34,7 @@ interface Reply<Data> {
   response: Response;
 }
 
-/** What a call was answered, or a thrown ProblemError. */
+/** Returns the data of a call's answer, or throws a ProblemError. */
 export async function answered<Data>(call: Promise<Reply<Data>>): Promise<NonNullable<Data>> {
   const {data, error, response} = await call;
   if (response.ok && data !== undefined && data !== null) return data;
@@ -67,7 +68,7 @@ export function validated<P extends PostPath>(client: TubecutClient, path: P, bo
 }
 
 type Points = Schemas['BevelPoints'];
-/** Those that a table has by what it is asked for: a land, zones, a preset. */
+/** Columns that a table has only with certain options: a land, zones, a preset. */
 type ByOption = 'z_face_mm' | 'b_face_deg' | 'zone' | 'root_gap_mm' | 'gap_inner_mm' | 'gap_outer_mm' | 'bevelled_gap_inner_mm' | 'bevelled_gap_outer_mm';
 type Whole<T> = Omit<T, 'result'> & {result: Omit<Schemas['BevelTable'], 'points'> & {points: Required<Omit<Points, ByOption>> & Pick<Points, ByOption>}};
 type Columns = Schemas['BevelColumns'];
@@ -86,7 +87,7 @@ export async function post<P extends PostPath, C extends Columns | undefined = u
   return data as Seen<P, C>;
 }
 
-/** What the service calls the media types of its documents (docs/formats.md). */
+/** Short names of the media types of the service's documents (docs/formats.md). */
 export const FORMATS = {
   cbor: 'application/cbor', csv: 'text/csv', svg: 'image/svg+xml', dxf: 'image/vnd.dxf', glb: 'model/gltf-binary', stl: 'model/stl',
   step: 'model/step', nc1: 'application/x-dstv', gcode: 'text/x-gcode', st: 'text/x-iec61131-st', zip: 'application/zip', pdf: 'application/pdf',
@@ -96,7 +97,10 @@ type Content<P extends PostPath> = paths[P]['post']['responses'][200]['content']
 export type Format<P extends PostPath> = {
   [F in keyof typeof FORMATS]: (typeof FORMATS)[F] extends keyof Content<P> ? F : never
 }[keyof typeof FORMATS];
-/** The options of its formats: view, mirror, those of G-code, and the files of a frame's packet. Which of them a format reads is the service's to say. */
+/**
+ * The options of its formats: view, mirror, those of G-code, and the files of a frame's packet. The
+ * service decides which of them a format reads.
+ */
 export type FormatOptions<P extends PostPath> = Omit<NonNullable<paths[P]['post']['parameters']['query']>, 'format' | 'validate_only'>;
 
 /** The same answer as a drawing, table or machine file, or a thrown ProblemError. */

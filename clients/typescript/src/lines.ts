@@ -1,9 +1,12 @@
-/** One POST whose answer comes in lines, and what its asking again at replicas shares: where, how long, and whether it goes on. */
+/**
+ * One POST whose answer comes in lines, and the shared state of its repeats at replicas: addresses,
+ * time limit, and cancellation.
+ */
 import {refusal} from './errors.js';
 import {addressesOf, nameOf, RETRYABLE, retryAfterMs, type Addresses} from './replicas.js';
 
 export const NDJSON = 'application/x-ndjson';
-const AWAY_MS = 5000;  // how long a replica that was down is asked last
+const AWAY_MS = 5000;  // time for which a replica that was down is tried last
 const LONGEST_WAIT_MS = 10_000;
 
 /** Called with each answer: how many there are, of how many where that is known, how many of them refusals. */
@@ -45,7 +48,7 @@ async function* textLines(body: ReadableStream<Uint8Array>): AsyncGenerator<stri
   }
 }
 
-/** What the POSTs of one batch or frame share. */
+/** Shared state of the POSTs of one batch or frame. */
 export class Run {
   readonly addresses: string[];
   readonly send: typeof fetch;

@@ -1,12 +1,16 @@
-/** Several replicas, by their addresses or behind one: what is asked again, and where. Every call is pure, so a repeat is safe. */
+/**
+ * Several replicas, by their addresses or behind one: conditions and targets of repeats. Every call
+ * is pure, so a repeat is safe.
+ */
 import {isProblem} from './errors.js';
 
 export const RETRYABLE = new Set([429, 502, 503]);
 const PINNED = new Set(['numerics_mismatch', 'machine_mismatch']);  // a replica of the version that the request pins would answer
-const PIN_MS = 5000;  // for so long other replicas are looked for behind addresses of several
-const PIN_AGAIN = 20;  // refusals of one name alone, and there is no other behind an address
+const PIN_MS = 5000;  // time for which other replicas are tried behind addresses of several
+const PIN_AGAIN = 20;  // refusals by only one name, after which there is no other behind an address
 const STREAMS = 32;  // at most
-const PROBES = 4;  // at a time; when none of them names a new replica, there is no other behind an address
+// at a time; if all of them name known replicas, there is no other behind an address
+const PROBES = 4;
 const PROBE_MS = 2000;
 const COUNT_MS = 60_000;  // how long a number of replicas is believed
 
@@ -16,7 +20,7 @@ export type Addresses = string | readonly string[];
 export interface RetryOptions {
   /** How often one call is sent at most to each address. */
   attempts?: number;
-  /** Longest wait between two attempts, whatever `Retry-After` asks for. */
+  /** Longest wait between two attempts, even if `Retry-After` is longer. */
   longestWaitMs?: number;
   fetch?: (request: Request) => Promise<Response>;
 }
@@ -40,7 +44,7 @@ export const waitFor = (ms: number, signal: AbortSignal): Promise<void> => new P
   else signal.addEventListener('abort', stop, {once: true});
 });
 
-/** What the service asks to wait, or `otherwise`. */
+/** Returns the wait that the service requests, or `otherwise`. */
 export const retryAfterMs = (reply: Response | undefined, otherwise: number): number => {
   const asked = Number(reply?.headers.get('Retry-After') ?? NaN);
   return Number.isFinite(asked) ? 1000 * asked : otherwise;
@@ -48,12 +52,13 @@ export const retryAfterMs = (reply: Response | undefined, otherwise: number): nu
 
 export const nameOf = (reply: Response): string => reply.headers.get('Tubecut-Replica') ?? '';
 
-/** Whether a problem says that this replica is not the one that the request pins. */
+/** Returns whether a problem means that this replica is not the pinned one. */
 export const refusesPin = (status: number, problem: unknown): boolean => status === 409 && isProblem(problem) && PINNED.has(problem.code);
 
 /**
- * Whether there may be another replica than those that have refused what a request pins: an address not asked yet, or behind one of them a
- * replica that the proxy has not sent to. Which one it does is chance where others ask too.
+ * Tracks whether there may be another replica than those that have refused a pin: an address not
+ * tried yet, or behind one of them a replica to which the proxy has not sent a request. If others
+ * send requests too, its choice is random.
  */
 export class Others {
   readonly #left: Set<string>;
@@ -73,7 +78,8 @@ export class Others {
     const oneEach = [...this.#names.values()].every(({size}) => size === 1);
     const often = this.#asked >= PIN_AGAIN * this.#names.size;  // however long each answer took
     if (often && (oneEach || Date.now() > this.#until)) return false;
-    // Two parts that ask by turns would meet the same replica each time: waits without memory, the longer the oftener.
+    // Two parts that alternate would meet the same replica each time, so the wait is random and
+    // memoryless, and grows with the number of tries.
     await waitFor(-(30 + 8 * this.#asked) * Math.log(1 - Math.random()), signal);
     return true;
   }
@@ -90,8 +96,9 @@ async function sentTo(address: string, base: string, request: Request): Promise<
 }
 
 /**
- * A fetch that repeats what is safe to repeat, at the addresses in turn, beginning with the one that answered last. What a request pins is
- * asked of others where one refuses it. `addresses` are those of replicas; the first is the one that requests name.
+ * Returns a fetch that repeats safe requests, at the addresses in turn, beginning with the one that
+ * answered last. If one refuses a pin, tries the others. `addresses` are those of replicas; the
+ * first is the one that requests name.
  */
 export function retryingFetch(options: RetryOptions = {}, addresses: Addresses = ''): (request: Request) => Promise<Response> {
   const {attempts = 4, longestWaitMs = 5000, fetch: send = fetch} = options;
@@ -130,7 +137,7 @@ export function retryingFetch(options: RetryOptions = {}, addresses: Addresses =
 
 const counted = new Map<string, {count: number; until: number}>();
 
-/** How many replicas there are, as far as the addresses and the names in answers tell. */
+/** Returns the number of replicas, as far as the addresses and the names in answers show. */
 export async function replicasAt(addresses: readonly string[], send: typeof fetch, headers: Record<string, string>, signal: AbortSignal): Promise<number> {
   const key = addresses.join(' ');
   const known = counted.get(key);
@@ -148,7 +155,7 @@ export async function replicasAt(addresses: readonly string[], send: typeof fetc
   return count;
 }
 
-/** Of the replica that answers; none where nobody does, or nobody says. */
+/** Returns the name of the replica that answers; undefined without an answer or a name. */
 async function nameBehind(address: string, send: typeof fetch, headers: Record<string, string>, signal: AbortSignal): Promise<string> {
   const late = new AbortController();
   const stop = () => late.abort();

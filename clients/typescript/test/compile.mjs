@@ -14,7 +14,7 @@ function readmeExamples() {
   return Array.from(readFileSync(join(ROOT, 'README.md'), 'utf8').matchAll(/^```ts\n(.*?)^```/gms), ([, block]) => block).join('\n');
 }
 
-// The page's examples as a module that runs, and what its comments say that it prints.
+// Returns the page's examples as a module that runs, and their expected output from its comments.
 export function readmeModule() {
   const text = readmeExamples();
   const printed = Array.from(text.matchAll(/console\.log\(.*\);  \/\/ (.+)$/gm), ([, line]) => line.split(' | ')).flat();
@@ -44,7 +44,7 @@ function sharingHost(options, edit = (name, text) => text) {
   return host;
 }
 
-// What is behind each directive.
+// The code after each directive.
 const withoutDirectives = (name, text) => name === WRONG ? text.replace(/@ts-expect-error/g, '(expected error)') : text;
 
 const errorsOf = (program) => ts.getPreEmitDiagnostics(program).filter(({category}) => category === ts.DiagnosticCategory.Error);

@@ -1,4 +1,5 @@
-// Several replicas: batches that go in parts, replicas that die, are full or have not what is pinned. Most of them stand in for the service.
+// Several replicas: batches that go in parts, replicas that die, are full or lack a pinned version.
+// Most of them are fakes.
 import assert from 'node:assert/strict';
 import {mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import http from 'node:http';
@@ -64,7 +65,7 @@ class StandIn {
     reply.writeHead(200);
     for (const [i, line] of lines.entries()) {
       if (done.length >= this.diesAfter) {
-        await sleep(50);  // what was written has arrived
+        await sleep(50);  // the written bytes have arrived
         return reply.destroy();
       }
       if (this.pauseMs) await sleep(this.pauseMs);

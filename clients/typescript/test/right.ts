@@ -1,4 +1,4 @@
-// What the client must accept. Compiled, never run.
+// Code that must compile. Never run.
 import {answered, batch, documentOf, frame, frameLines, post, progressBar, tubecut, validated, type BatchLine, type DocumentLine, type RequestBody, type Schemas} from '../src/index.js';
 
 const client = tubecut('http://127.0.0.1:8080');

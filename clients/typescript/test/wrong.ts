@@ -1,4 +1,5 @@
-// What the client must refuse. Each directive names the compiler's code and a word of its message; main.mjs holds both.
+// Code that must not compile. Each directive names the compiler's code and a word of its message;
+// main.mjs checks both.
 import {documentOf, frame, frameLines, post, tubecut, type BatchLine, type DocumentLine} from '../src/index.js';
 import {joint} from './right.js';
 

@@ -1,4 +1,5 @@
-// The examples, the catalogues, and what one answer promises of another: the echoed request, CBOR, validate_only.
+// The examples, the catalogues, and the relations between answers: the echoed request, CBOR,
+// validate_only.
 import assert from 'node:assert/strict';
 import {decode} from '../cbor.mjs';
 import {answerFaults} from '../check.mjs';

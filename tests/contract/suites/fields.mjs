@@ -1,10 +1,11 @@
-// The fields of every object of a request in the contract are those its reader knows, both ways: a name unlike any other gets
-// the list of those known there. A name known beside them, of another kind of the object for example, must be refused.
+// The fields of every object of a request in the contract are those that its reader knows, in both
+// directions: an unknown name gets the list of those known there. If a name is known only for
+// another kind of the object, it must be refused.
 import {branchOf, escape, selects} from '../edits.mjs';
 import {drawn, fromSchema, sound} from '../generate.mjs';
 import {each} from '../service.mjs';
 
-const ANY = 100;   // bodies from the schema alone, each endpoint
+const ANY = 100;   // bodies from only the schema, each endpoint
 const MORE = 60000;  // of them looked through, at most, for objects not seen yet
 const NESTED = 400;  // with another endpoint's request within, each way
 const SOUND = 40;  // sound ones
@@ -12,7 +13,7 @@ const AT_ONCE = 24;  // objects of one request: a problem names 32 fields
 const STRANGE = 'Q'.repeat(65);  // too long to be taken for a name misspelt
 const LIST = 'known here: ';
 
-// What is wrong with what a field holds.
+// Errors of a field's value.
 const OF_VALUES = ['wrong_type', 'not_a_number', 'not_an_integer', 'out_of_range', 'bad_choice', 'bad_text', 'wrong_count', 'missing_field'];
 
 // In the contract as the request by itself; inside of another one the whole member is refused.
@@ -44,7 +45,8 @@ function* objects(contract, given, value, pointer = '') {
   for (const [name, item] of Object.entries(value)) yield* objects(contract, schema.properties?.[name], item, `${pointer}/${escape(name)}`);
 }
 
-// Puts the strange name into some of a body's objects and returns what the reader says it knows in each.
+// Puts the strange name into some of a body's objects and returns the reader's list of known names
+// for each.
 async function asked(service, endpoint, body, some) {
   for (const {object} of some) object[STRANGE] = 1;
   const reply = await service.post(endpoint.path, body);
@@ -55,7 +57,8 @@ async function asked(service, endpoint, body, some) {
     .filter(([, hint]) => hint?.startsWith(LIST)).map(([place, hint]) => [place, hint.slice(LIST.length).split(', ')]);
 }
 
-// Is a member the contract has no place for refused there, and for being there, not only for what it holds?
+// Returns whether a member that is not in the contract is refused there, because of its presence
+// and not only of its value.
 async function refused(service, endpoint, body, {object, pointer}, name) {
   const codes = [];
   for (const value of [1, {}, [1, 2], 'text']) {
@@ -82,7 +85,7 @@ class Known {
     return Object.keys(schema.properties).filter((name) => !this.lists.get(schema)?.has(name));
   }
 
-  // What a body pins is judged before it is read.
+  // The pins of a body are checked before it is read.
   async learn({numerics: _, machine_sha256: __, ...body}, wanted = () => true) {
     const all = [...objects(this.contract, this.endpoint.request, body)].filter(({schema}) => wanted(schema));
     for (let i = 0; i < all.length && i < 4 * AT_ONCE; i += AT_ONCE) {

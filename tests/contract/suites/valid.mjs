@@ -4,7 +4,7 @@ import {answerFaults, problemFaults} from '../check.mjs';
 import {drawn, fromSchema, hasGenerator, runsOf, sound} from '../generate.mjs';
 import {each} from '../service.mjs';
 
-const ANY = 800;      // bodies from the schema alone, each endpoint
+const ANY = 800;      // bodies from only the schema, each endpoint
 const CROSSED = 600;  // sound joints with members of such
 const SOUND = 1100;   // sound joints
 const ENOUGH = 1000;  // of them answered
@@ -26,7 +26,7 @@ const seldomPinned = (bodies) => fc.tuple(bodies, fc.nat(9)).map(([body, k]) => 
   return k === 0 ? body : unpinned(body);
 });
 
-// Sound joints of which some members come from bodies of the schema alone.
+// Sound joints of which some members come from bodies of only the schema.
 const crossed = (endpoint, sounds, any) => fc.tuple(sounds, any, fc.infiniteStream(fc.nat(3))).map(([body, other, stream]) => ({
   ...body, ...Object.fromEntries(Object.entries(unpinned(other)).filter(() => stream.next().value === 0)),
 })).filter((body) => endpoint.validRequest(body));
@@ -36,7 +36,7 @@ function replyFaults({contract, problem}, endpoint, body, reply) {
   if (reply.status === 200) return answerFaults(contract, endpoint, body, reply.text);
   if (reply.status === 599) return [reply.text];
   const {code, errors} = JSON.parse(reply.text);
-  // A frame may ask for more than a minute's work; its estimate, within four times of what it takes, says so.
+  // A frame may require more than a minute's work; its estimate, right within four times, shows it.
   if (code === 'over_budget' && 4 * errors?.[0]?.got >= errors?.[0]?.limit) return [];
   const faults = problemFaults(contract, problem, reply);
   if (faults.length) return faults;

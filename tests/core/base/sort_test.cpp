@@ -25,7 +25,7 @@ TEST(SortUnlessStopped, IsInOrder) {
   }
 }
 
-/// What is stopped is left with all that was there.
+/// A cancelled sort keeps all elements.
 TEST(SortUnlessStopped, LosesNothingWhenStopped) {
   std::vector<int> values(50000);
   for (int i = 0; i < 50000; ++i) values[static_cast<std::size_t>(i)] = 50000 - i;

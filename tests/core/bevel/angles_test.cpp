@@ -113,7 +113,7 @@ TEST(AnglesGolden, OffsetPairOfThePatent) {
   }
 }
 
-/// A random tube, a point of its curve, and everything about it by vectors alone.
+/// A random tube, a point of its curve, and all its angles by only vectors.
 struct Built {
   Eigen::Vector3d radial, round, axial, outward, along, half_target, half_cutter;
 };

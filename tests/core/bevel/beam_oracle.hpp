@@ -7,9 +7,9 @@
 
 #include "core/bevel/table/table.hpp"
 
-/// What a round beam takes and leaves, by brute force: every place of the finished surface against
-/// a dense row of torch positions, each in the half plane the torch stands in. No tree, no bound,
-/// no normals: whether the axis is in the part is read from the finished height where it passes.
+/// Metal that a round beam takes and leaves, by brute force: every point of the finished surface
+/// against a dense row of torch positions, each in the half plane of the torch. No tree, no bound,
+/// no normals: the finished height where the axis passes shows whether it is in the part.
 namespace tubecut::bevel::beam_oracle {
 
 struct Found {
@@ -167,7 +167,8 @@ class Scan {
     for (auto k = start - 1; k > start - n / 2 && look(k); --k) {
     }
     double sign = off(at(i, u), rho, phi, z) < 0.0 ? -1.0 : 1.0;
-    // Beside all that are nearly as near: half / 8 apart, the nearest may lie half / 128 nearer.
+    // Next to all that are nearly as near: spaced half / 8, so the nearest may lie half / 128
+    // nearer.
     const double nearly = best + half_ / 64;
     for (const auto& [k, d0] : looked) {
       if (d0 > nearly) continue;

@@ -37,8 +37,8 @@ TEST(CutOracle, FindsTheDeepestPlaceOfAWallInAPlane) {
   EXPECT_NEAR(oracle::deepest(flat(0.1, 0.2), plane).depth, 0.0, 1e-9);
 }
 
-// The ruled wall sags off a thin tube across the target by what the axis distance says: at
-// half way between the rows 0 and 90 deg both edges stand at 45 deg.
+// The ruled wall sags off a thin tube across the target by the axis distance: half way between the
+// rows 0 and 90 deg both edges are at 45 deg.
 TEST(CutOracle, SeesBetweenRowsWhatRowsDoNotShow) {
   const double r = 1.0;
   const joint::AxisTube tube{.radius = r,
@@ -175,7 +175,7 @@ TEST(BetweenRows, ALandIsHeldAcrossTheSeamToo) {
   }
 }
 
-// A dent between two rows that stand: only what looks between rows can see it.
+// A dent between two unchanged rows: only a check between rows can see it.
 TEST(BetweenRows, ARowLeftOutIsSeen) {
   auto spec = table_1();
   auto made = table(spec);
@@ -192,7 +192,7 @@ TEST(BetweenRows, ARowLeftOutIsSeen) {
     bad.cutter.erase(bad.cutter.begin() + static_cast<std::ptrdiff_t>(i));
     const double depth = found_in(spec, bad).depth;
     const auto checks = verify(spec, bad);
-    EXPECT_TRUE(passes(checks, "penetration")) << i;  // of the rows, which all stand
+    EXPECT_TRUE(passes(checks, "penetration")) << i;  // of the rows, which are all unchanged
     if (depth < 1.2 * 0.05) continue;
     ++seen;
     EXPECT_FALSE(passes(checks, "penetration_stated")) << i << ' ' << depth;
@@ -200,7 +200,7 @@ TEST(BetweenRows, ARowLeftOutIsSeen) {
   EXPECT_GE(seen, 10);
 }
 
-// ---- where nothing is promised it is measured and said
+// ---- without a guarantee, the deviation is measured and reported
 
 TEST(BetweenRows, ContactNoneSaysWhereAndHowDeep) {
   struct Case {

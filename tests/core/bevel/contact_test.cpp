@@ -65,7 +65,7 @@ TEST(Contact, SquareCutOfTable1IsTheGolden) {
     EXPECT_EQ(got->b[i], 0.0);
     EXPECT_NEAR(got->z_inner[i], z[i], 1e-10) << i;
     EXPECT_EQ(got->z_outer[i], got->z_inner[i]);
-    // It touches just where the golden says.
+    // It touches exactly at the golden's point.
     const auto line = joint::generator_at(30.0 + 5.0 * share[i], got->phi[i]);
     EXPECT_NEAR(joint::highest(contour->cutters, line)->z, z[i], 1e-9) << i;
     inner += share[i] < 1e-9 ? 1 : 0;
@@ -491,7 +491,7 @@ TEST(Scaling, ByPowersOfTwoIsExactThroughTheWholeTable) {
         };
         EXPECT_EQ(scaled(one->z_inner), got->z_inner);
         EXPECT_EQ(scaled(one->z_outer), got->z_outer);
-        // What may be taken of the part is 0.01 mm at any size: a large one's torch is lower.
+        // The permitted loss of the part is 0.01 mm at any size: a large one's torch is lower.
         const auto inner = scaled(one->torch_inner), outer = scaled(one->torch_outer);
         for (std::size_t i = 0; i < inner.size(); ++i) {
           EXPECT_LE(got->torch_inner[i], inner[i]);
@@ -507,13 +507,13 @@ TEST(Scaling, ByPowersOfTwoIsExactThroughTheWholeTable) {
     }
 }
 
-/// What the warnings `wall_overhangs` say: from, to in deg, and how far beside in mm.
+/// Values of the warnings `wall_overhangs`: from, to in deg, and the overhang in mm.
 std::vector<std::array<double, 3>> overhangs(const Table& table) {
   std::vector<std::array<double, 3>> out;
   for (const auto& w : table.warnings) {
     if (w.code != WarningCode::wall_overhangs) continue;
     std::array<double, 3> said{};
-    EXPECT_EQ(std::sscanf(w.detail.c_str(),  // NOLINT(cert-err34-c): three are asked for
+    EXPECT_EQ(std::sscanf(w.detail.c_str(),  // NOLINT(cert-err34-c): the test requires three values
                           "phi %lf to %lf deg, its outer surface passes up to %lf", &said[0],
                           &said[1], &said[2]),
               3)
@@ -525,8 +525,8 @@ std::vector<std::array<double, 3>> overhangs(const Table& table) {
 }
 
 // A bore that meets its partner all round and a wall that does not: on each side it reaches beyond
-// the partner's by plain sums of radii, over the arc whose sine says so. One equally wide or wider
-// has nothing to say.
+// the partner's by plain sums of radii, over the arc of that sine. If the partner is equally wide
+// or wider, there is no warning.
 TEST(Contact, AWallWiderThanItsPartnerSaysWhereItOverhangs) {
   for (const double inclination : {45.0, 60.0, 90.0})
     for (const double offset : {0.0, 0.6}) {

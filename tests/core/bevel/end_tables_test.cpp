@@ -44,7 +44,7 @@ std::string shown(const Shown& value) {
   return number != nullptr ? std::to_string(*number) : "-";
 }
 
-/// What an answer says of the tables, or of why there are none.
+/// The tables in an answer, or the reason for their absence.
 std::string told(const Result<std::vector<std::optional<EndTable>>>& tables) {
   std::string out;
   if (!tables) {
@@ -61,8 +61,8 @@ std::string told(const Result<std::vector<std::optional<EndTable>>>& tables) {
   return out;
 }
 
-/// The tables of a node share its nodes, in the order of the ends: whoever
-/// makes which first, the same one finds too few left and says the same of it.
+/// The tables of a node share its nodes, in the order of the ends: in any order of computation, the
+/// same end finds too few left and reports it in the same way.
 TEST(EndTables, AreTheSameInAnyOrder) {
   const auto node = ladder();
   const auto solved = joint::solve(node);

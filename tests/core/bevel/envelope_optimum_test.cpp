@@ -40,7 +40,7 @@ class LinearProgramme {
   LinearProgramme(const LinearProgramme&) = delete;
   LinearProgramme& operator=(const LinearProgramme&) = delete;
 
-  /// Asks for the least f - B at one node instead of the area.
+  /// Minimises f - B at one node instead of the area.
   void only(std::size_t node) {
     for (std::size_t j = 0; j < b_.size(); ++j)
       glp_set_obj_coef(problem_, static_cast<int>(j) + 1, j == node ? 1.0 : 0.0);
@@ -120,8 +120,7 @@ TEST(EnvelopeOptimum, FasterAxis) {
   compare(20240503, 100, 360, {8.0 * kRadPerDeg, 4.0 * kRadPerDeg}, 1e9);
 }
 
-/// One corner among 20 000 nodes: what rounding leaves at the others must not add up round the
-/// path.
+/// One corner among 20 000 nodes: the rounding errors of the others must not add up round the path.
 TEST(EnvelopeOptimum, OneCornerAmongTwentyThousandNodes) {
   constexpr std::size_t n = 20000;
   for (const double kink : {1e-4, 0.01, 1.0}) {
@@ -144,7 +143,7 @@ TEST(EnvelopeOptimum, OneCornerAmongTwentyThousandNodes) {
   }
 }
 
-/// What any multipliers prove lies below the area of every profile that keeps the limits.
+/// Any multipliers prove a bound below the area of every profile that keeps the limits.
 TEST(LeastArea, NoMultipliersProveMoreThanIsTrue) {
   std::mt19937_64 random(20240505);
   std::normal_distribution<double> noise;
@@ -163,7 +162,7 @@ TEST(LeastArea, NoMultipliersProveMoreThanIsTrue) {
   }
 }
 
-/// Multipliers of another table, of none, or that are no numbers prove nothing, and that fails.
+/// Multipliers of another table, missing ones, or NaN prove nothing, and the check fails.
 TEST(LeastArea, WhatIsNotThereProvesNothing) {
   std::mt19937_64 random(20240507);
   const auto profile = real_nodes::random_node(random, 90, kTorch);

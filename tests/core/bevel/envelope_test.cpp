@@ -35,7 +35,7 @@ struct Case {
   EnvelopeSpec spec;
 };
 
-/// Places: even, uneven, or with pairs of nodes only 1e-6 mm apart.
+/// Positions: even, uneven, or with pairs of nodes only 1e-6 mm apart from each other.
 void place(Random& random, AngleProfile& profile, std::size_t n) {
   const auto kind = random.whole(0, 2);
   double s = random.uniform(-5.0, 5.0);
@@ -170,8 +170,8 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 constexpr BevelRateLimits kLimits{5.0 * kRadPerDeg, 1.0 * kRadPerDeg};
 constexpr double kTorch = 80.0 * kRadPerDeg;
 
-/// Nodes coarse against the limits apart (there a node that keeps the limits starts no curve, and f
-/// is lower), the plain text.
+/// The plain text, except for nodes that are coarse against the limits (there a node that keeps the
+/// limits starts no curve, and f is lower).
 TEST(EnvelopeReal, AgreesWithTheTheoryNoteWrittenPlainly) {
   std::mt19937_64 random(11);
   int same = 0;

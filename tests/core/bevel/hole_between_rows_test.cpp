@@ -13,8 +13,8 @@
 #include "tests/support/cut_oracle.hpp"
 #include "tests/support/random_cut.hpp"
 
-// Between two rows of a hole or of the branch's end that goes with it: how much nearer than the
-// asked gap does the wall come to the other member?
+// Between two rows of a hole or of its branch's end: the amount by which the wall comes nearer to
+// the other member than the requested gap.
 
 namespace tubecut::bevel {
 namespace {
@@ -43,7 +43,7 @@ HoleSpec random_hole(oracle::Random& random) {
   return s;
 }
 
-/// What faces the other member, and that member with the asked gap around it.
+/// The edges that face the other member, and that member with the requested gap around it.
 struct Facing {
   oracle::Wall wall;
   oracle::Solid other;
@@ -178,8 +178,8 @@ std::vector<std::array<double, 4>> along(const std::array<const std::vector<doub
   return out;
 }
 
-/// What a round beam of the kerf's width takes of the finished wall, mm: places of the wall against
-/// straight axes, every one against every one.
+/// Metal that a round beam of the kerf's width takes from the finished wall, mm: points of the wall
+/// against straight axes, all pairs.
 double taken(const HoleSpec& spec, const Hole& hole) {
   const double inner = spec.chord.inner_radius(), outer = spec.chord.outer_radius;
   const int parts = std::max(1, 1500 / static_cast<int>(hole.phi.size()));
@@ -207,7 +207,8 @@ double taken(const HoleSpec& spec, const Hole& hole) {
   return 0.5 * spec.kerf - std::sqrt(std::max(0.0, nearest));
 }
 
-// Half a kerf off the wall's own line took up to 0.85 mm from beside it. TUBECUT_HOLES=600: all.
+// Half a kerf off the wall's own line took up to 0.85 mm from the adjacent wall. TUBECUT_HOLES=600:
+// all.
 TEST(HoleTorchLine, StaysOutOfTheChord) {
   oracle::Random random{std::mt19937_64(77)};
   std::vector<double> lefts;
@@ -260,7 +261,7 @@ TEST(HoleTorchLine, ACorruptedRowIsSeen) {
   EXPECT_GE(tried, 8);
 }
 
-// Twelve points round a hole cut the corners: said, with where and how much.
+// Twelve points round a hole cut the corners: reported, with position and amount.
 TEST(HoleBetweenRows, ABareGridSaysWhatItsPointsMiss) {
   for (const auto kind : {JointKind::set_on, JointKind::set_in, JointKind::through})
     for (const std::size_t points : {12U, 720U}) {

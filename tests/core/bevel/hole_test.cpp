@@ -21,7 +21,7 @@ using testing::from_line, testing::Real, testing::Vec;
 
 constexpr std::uint64_t kSeed = 20260107;
 constexpr int kPairs = 500;
-constexpr Real kFit = 0.01L;  // mm; what a gap map may differ from the asked gap
+constexpr Real kFit = 0.01L;  // mm; permitted difference of a gap map from the requested gap
 
 Vec turned(Vec p, std::size_t i, std::size_t j, Real angle) {
   const Real a = std::cos(angle) * p[i] - std::sin(angle) * p[j];
@@ -60,7 +60,7 @@ struct Seen {
   Real worst_root = 0, least = std::numeric_limits<Real>::infinity();
 };
 
-/// The asked gap against both cut surfaces along the path a machine takes: straight in phi and z.
+/// The requested gap against both cut surfaces along the path of a machine: straight in phi and z.
 Seen measured(const HoleSpec& spec, const HoleCut& cut) {
   const auto branch = std::get<joint::TubeCutter>(spec.branch);
   const bool set_on = spec.kind == JointKind::set_on;
@@ -398,7 +398,7 @@ TEST(Hole, EveryDegenerateCaseHasItsName) {
     }
     EXPECT_EQ(refusal([](auto& s, B&) { s.kerf = 200; }, kind), "out_of_range");
   }
-  // Beside the chord's middle plane no swing in the axial plane keeps the wall off the branch.
+  // Off the chord's middle plane no swing in the axial plane keeps the wall off the branch.
   EXPECT_EQ(refusal(
                 [](auto&, B& b) {
                   b.radius = 15;
@@ -434,8 +434,8 @@ bool crosses_itself(const std::vector<double>& x, const std::vector<double>& y) 
 }
 
 TEST(Hole, NoEdgeCrossesItself) {
-  // A wide branch through a thick chord, the wall along the branch's surface: its lines run
-  // together beside the branch before they are outside.
+  // A wide branch through a thick chord, the wall along the branch's surface: its lines cross next
+  // to the branch before they are outside.
   HoleSpec wide{.chord = {.outer_radius = 90.0, .wall = 20.7},
                 .branch = joint::TubeCutter{.radius = 67.1,
                                             .inclination = Angle::deg(111.0),

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kRateStep = 1e-5;  // mm, of a radius
 
-/// The partner with its radius larger; empty if it has none.
+/// The partner with its radius larger; empty if it has no radius.
 std::optional<joint::Partner> with_wider_radius(joint::Partner partner, double by) {
   const bool has = std::visit(
       [&](auto& kind) {
@@ -51,7 +51,7 @@ TableSpec cut_by_kind(oracle::Random& random, std::size_t kind) {
   return spec;
 }
 
-/// What was compared, how often there was no rate, and the largest difference, of the rate.
+/// Number of comparisons, number without a rate, and the largest difference, of the rate.
 struct ComparedRates {
   int rows = 0, none = 0;
   double worst = 0.0;
@@ -66,7 +66,7 @@ void compare_rates(const TableSpec& spec, const Table& t, ComparedRates& seen) {
   for (std::size_t i = 0; i < t.phi.size(); ++i) {
     const double phi = t.phi[i];
     EXPECT_EQ(std::isnan(t.dz_chord[i]), !more.has_value());
-    // A step of half the width tells how straight the surface is there.
+    // A step of half the width shows the linearity of the surface there.
     const auto branch = central_difference(top_of(partner, rho - kRateStep, phi),
                                            top_of(partner, rho + kRateStep, phi), kRateStep);
     const auto again = central_difference(top_of(partner, rho - 4 * kRateStep, phi),

@@ -79,8 +79,8 @@ TEST(RequiredShapes, NeverBelowTheScanAndNoMoreThanItNeeds) {
       const double b = required_bevel(contour->cutters, wall, line, contact.z);
       const double scanned = std::atan(steepest);
       worst_below = std::max(worst_below, scanned - b);
-      // A cutter met only beside the wall's inner edge may need more than the scan's first step
-      // sees.
+      // If a cutter is met only next to the wall's inner edge, it may need more than the scan's
+      // first step sees.
       worst_above = std::max(worst_above, b - scanned);
       worst_lift = std::max(worst_lift, std::abs(lift(contour->cutters, wall, line, m) - highest));
       ++compared;

@@ -76,8 +76,8 @@ double apart(const std::vector<double>& a, const std::vector<double>& b) {
   return out / size(b);
 }
 
-/// Slopes lead from each height to the next, round the ring, and no gradient is left: of a height
-/// alone moved, and of a slope with all that follows it closed again by the next.
+/// Slopes lead from each height to the next, round the ring, and the gradient vanishes: for a
+/// single moved height, and for a slope with the rest closed again by the next.
 TEST(RingNewton, IsStationaryOnAClosedPath) {
   std::mt19937_64 random(20261126);
   for (const std::size_t n : {8U, 16U, 40U, 360U}) {

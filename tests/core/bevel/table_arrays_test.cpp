@@ -8,7 +8,7 @@
 
 #include "tests/support/random_cut.hpp"
 
-// What the proof of a table looks at in arrays, held against the same one row at a time.
+// The array form of a table's verification, compared with the form for one row at a time.
 
 namespace tubecut::bevel {
 namespace {
@@ -118,8 +118,8 @@ TEST(TableArrays, CountsWhatIsNoFiniteNumber) {
   }
 }
 
-// The wall between rows is straight: at a share of 0 its edges are the row's, at 1 the next one's,
-// and between the edges, and the rows, it lies as far along as it is asked.
+// The wall between rows is straight: at a fraction of 0 its edges are the row's, at 1 the next
+// one's, and between the edges, and the rows, it lies at the requested fraction.
 TEST(TableArrays, PlacesBetweenRowsLieOnTheWall) {
   for (const auto& [spec, t, partners] : cuts()) {
     const auto n = t.phi.size();

@@ -29,8 +29,8 @@ struct Seen {
   BeamProof proof;
   beam_oracle::Found found;
 
-  /// How far the proof's figures are from what the oracle finds anywhere and where the proof says;
-  /// metal left as a share of 2 % of it or of 5e-3 mm.
+  /// Differences between the verification's figures and the oracle's, anywhere and at the reported
+  /// point; metal left as a fraction of 2 % of it or of 5e-3 mm.
   double gouge_off, left_off;
 };
 
@@ -133,7 +133,7 @@ TEST(TorchLine, ACorruptedRowIsSeen) {
   }
 }
 
-/// Any table of any joint: what a request may ask for.
+/// Any table of any joint in the range of a request.
 TableSpec any_table(std::mt19937_64& random) {
   const auto any = [&](double low, double high) {  // of bounds in either order
     return std::uniform_real_distribution(0.0, 1.0)(random) * (high - low) + low;
@@ -245,8 +245,8 @@ TEST(TorchLine, StaysOutOfRandomTables) {
   EXPECT_LE(apart_left, 1.0);
 }
 
-// Where B swings, what is next to the swing is in the way of lines that lean more: narrow across
-// the wall, between places that were looked at. Up to 0.023 mm were taken in these.
+// If B swings, the metal next to the swing is in the way of lines that tilt more: narrow across the
+// wall, between sampled points. Up to 0.023 mm were taken in these.
 TEST(TorchLine, StaysOutBesideASwing) {
   std::mt19937_64 random(20261122);
   for (int n = 0; n <= 1575; ++n) {
@@ -269,8 +269,8 @@ TEST(TorchLine, AKerfAsWideAsTheRadiusIsRefused) {
   EXPECT_EQ(got.error().issues.front().member, "kerf");
 }
 
-// What is left out between two places is a share of the kerf: wide ones show it.
-// One of 2e-322 mm was looked for at thousands of places between any two rows, unstoppably.
+// The interval omitted between two points is a fraction of the kerf, so wide ones show it. A kerf
+// of 2e-322 mm led to thousands of points between any two rows, without a check for a stop.
 TEST(TorchLine, AKerfNarrowerThanAnyBeamIsRefused) {
   auto spec = pair(60.3, 4, 114.3, 60);
   spec.sampling = {.tolerance = joint::Tolerance{1e-3}};

@@ -42,9 +42,8 @@ double any(std::mt19937_64& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-// A branch r at right angles on a chord R, x across the chord: the inner edge touches at
-// sqrt(R^2 - r_i^2 cos^2), the outer one stands straight beside it; a flush bevel follows the
-// chord's tangent.
+// A branch r at right angles on a chord R, x across the chord: the inner edge touches at sqrt(R^2 -
+// r_i^2 cos^2), the outer one lies straight next to it; a flush bevel follows the chord's tangent.
 TEST(UntiltedEnd, SaddleAtRightAnglesLeavesWhatPlainTrigonometryTells) {
   constexpr double kChord = 60, kOuter = 40, kWall = 4, kInner = kOuter - kWall;
   const auto t = table(square_end(kOuter, kWall, {tube(kChord, 90)}));
@@ -193,8 +192,8 @@ TEST(UntiltedEnd, SetInEndsAreSquareToo) {
   EXPECT_NEAR(greatest(t->gaps.bevelled).gap, 0.0, 0.5);
 }
 
-// An equal saddle ends in two points at the flanks: half a wall behind each the branch is as wide
-// as its own curve tells, found by bisection here.
+// An equal saddle ends in two points at the flanks: half a wall behind each the branch has the
+// width of its own curve, found by bisection here.
 TEST(UntiltedEnd, TongueIsAsWideAsTheCurveOneWallBehindItsTip) {
   constexpr double kChord = 60, kOuter = 40, kWall = 4;
   const auto t = table(square_end(kOuter, kWall, {tube(kChord, 90)}));

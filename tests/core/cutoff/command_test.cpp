@@ -194,7 +194,7 @@ TEST(Automatic, SmallestDegreeOfTheSpec) {
 }
 
 // Over random windows of both machines minimax is never above another method, and every command's
-// integral ends where its drift says (Gauss on the seconds form, exact for polynomials).
+// integral ends at its stated drift (Gauss on the seconds form, exact for polynomials).
 TEST(Commands, MinimaxIsLowestAndDriftIsTheIntegral) {
   std::mt19937_64 random(6);
   const auto any = [&random](double low, double high) {

@@ -110,7 +110,7 @@ TEST(GoldenCycles, FeedForTarget) {
 
 TEST(Cycle, UnreachableTargetHasNoFeed) {
   auto spec = testing::cycle_limits();
-  spec.target = 400.0;  // 9 s a piece, handling alone takes 10
+  spec.target = 400.0;  // 9 s a piece, but handling takes 10
   const auto work =
       WorkFeed::make(Mechanism::make(testing::table_3()).value(), {CutDistances{12, 2, 10, 3}, 1.0})
           .value();

@@ -150,8 +150,7 @@ TEST(FeedCurve, OptionalSectionsAreThereWhenAsked) {
   EXPECT_EQ(feed_curve(spec).error().code(), ErrorCode::unsupported_combination);
 }
 
-// y, speeds and the peak do not know what k is but as a factor 1/k: the metamorphic law of the
-// spec.
+// y, speeds and the peak depend on k only by a factor 1/k: the metamorphic law of the spec.
 TEST(FeedCurve, ScalesAsOneOverK) {
   auto spec = small_request();
   spec.cycle.reset();

@@ -139,8 +139,8 @@ TEST(SeededLinkages, InverseIsTheInverse) {
     double shares[] = {share(random), share(random), share(random)};
     std::sort(std::begin(shares), std::end(shares));
     for (const double at : shares) {
-      // A share of the stroke, so that both limits stay 1 % away; the feed there is what the
-      // inverse gets.
+      // A fraction of the stroke, so that both limits stay 1 % away; the feed there is the input of
+      // the inverse.
       const double x = made->forward(g.stroke_low + at * (g.stroke_high - g.stroke_low)).feed;
       const Inverse there = made->inverse(x);
       const Forward back = made->forward(there.stroke);

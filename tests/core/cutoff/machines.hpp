@@ -47,7 +47,7 @@ inline CycleSpec cycle_limits() {
           .target = 120.0};
 }
 
-/// The golden file's cycle case on Table 3 with everything asked for.
+/// The golden file's cycle case on Table 3 with all options.
 inline FeedCurveSpec table_3_request() {
   return {.linkage = table_3(),
           .cut = {CutDistances{12.0, 2.0, 10.0, 3.0}, 1.0},

@@ -210,9 +210,9 @@ TEST(GrooveFigures, DenserSurveyChangesNothing) {
   std::printf("weld length, 720 against 5760 stations: %.1e\n", worst);
 }
 
-/// The filler that a plane cuts, by points of a grid in it: in a section that the answer states,
-/// over the chord and under groove and face. The plane stands on P1 of section `index`, normal to
-/// the way to its neighbours.
+/// The filler in a plane, by points of a grid in it: in a section of the answer, over the chord and
+/// under groove and face. The plane passes through P1 of section `index`, normal to the direction
+/// of its neighbours.
 double cut_by_plane(const GrooveSpec& spec, const Groove& g, std::size_t index) {
   constexpr double kStep = 0.05;  // mm
   const auto n = g.sections.size();

@@ -87,8 +87,8 @@ TEST_P(Paths, SweptFlankErrorAsSampledAndWithLinearAxes) {
   }));
   EXPECT_GE(published.flank_min.value, -GetParam().limit);
   EXPECT_LE(published.flank_max.value, GetParam().limit);
-  // The emitted positions interpolate more smoothly; their own exact poses, and what linear axes
-  // make of them.
+  // The emitted positions interpolate more smoothly; compares their own exact poses with the
+  // interpolation by linear axes.
   const PeriodicSpline smooth_z{dz}, smooth_b{db};
   const Swept exact = sampled(exact_sections(spec, 1440, [&](double turn) {
     return Increment{smooth_z(90 * turn), smooth_b(90 * turn)};
@@ -218,9 +218,9 @@ TEST_P(Paths, DensePointsAgainstTheSweptTool) {
   ASSERT_TRUE(path);
   const PointTest test{spec};
   const auto emitted = emitted_blocks(*path);
-  // Its own error is the cusp between stations, which falls with their square, and what lies
-  // between its points: both are measured by halving, and the sum is at most a fifth of the figure
-  // confirmed.
+  // Its own error is the cusp between stations, which falls with their square, and the error
+  // between its points: both are measured by halving, and the sum is at most a fifth of the
+  // confirmed figure.
   const int stations = 7200;
   const auto fine = test.run(emitted, 288, 11, stations),
              coarse = test.run(emitted, 288, 11, stations / 2),

@@ -69,7 +69,7 @@ TEST_P(GoldenGroove, Extremes) {
   EXPECT_TRUE(found->warnings.empty());
 }
 
-/// The chord's upper side at x of a section, from the joint's distances alone: bisection on the
+/// The chord's upper side at x of a section, only from the joint's distances: bisection on the
 /// distance to the chord's axis.
 double chord_height(const GrooveSpec& spec, double omega, double x) {
   const double a = spec.inclination.rad();
@@ -186,7 +186,9 @@ TEST(GrooveSections, AreaFromAReferenceHeightInverts) {
     spec.area_in = i % 2 == 0 ? AreaIn::axial : AreaIn::normal;
     spec.sections = 16;
     const auto first = groove(spec);
-    if (!first) continue;  // too small as a normal area, or none that is equal all round
+    if (!first)
+      continue;  // too small as a normal area, or an area that no constant value matches
+                 // all round
     const double equal = spec.area_in == AreaIn::axial ? 1e-12 : 5e-4;
     const auto& reference = first->sections[std::size_t(i) % 16];
     spec.filler = FillerHeight{reference.height, reference.omega};
@@ -204,7 +206,7 @@ TEST(GrooveSections, DerivativesAreThoseOfTheSections) {
     spec.area_in = i % 2 == 0 ? AreaIn::axial : AreaIn::normal;
     const auto joint = joint_of(spec);
     const double omega = joints.uniform(0.0, kTwoPi), step = 2e-4;
-    if (!joint && spec.area_in == AreaIn::normal) continue;  // none that is equal all round
+    if (!joint && spec.area_in == AreaIn::normal) continue;  // no value is equal all round
     ASSERT_TRUE(joint);
     const auto y = [&](int k) { return section(*joint, Angle::rad(omega + k * step)); };
     const auto middle = y(0);

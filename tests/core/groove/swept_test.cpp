@@ -74,7 +74,7 @@ class GoldenSwept : public ::testing::TestWithParam<const char*> {
 };
 INSTANTIATE_TEST_SUITE_P(Cases, GoldenSwept, ::testing::ValuesIn(kCases));
 
-/// The golden summary was sampled with rulings every 2 deg; the root face with the 180 optima alone
+/// The golden summary was sampled with rulings every 2 deg; the root face with only the 180 optima
 /// and 5 levels.
 constexpr SweptPoints kGoldenFlank{.rulings = 180, .per_ruling = 11, .root_levels = 5};
 
@@ -100,7 +100,7 @@ TEST_P(GoldenSwept, SummaryOf1440PositionsFrom180Optima) {
   const auto coarse =
       of(blocks(name, 180, hold_case(name), spline), Between::nothing, kGoldenFlank);
   EXPECT_NEAR(coarse.root_face_min.value, number(want, "root_face_clearance_after"), 1e-8);
-  // The root face of all 1440 positions: what 180 of them saw, or deeper.
+  // The root face of all 1440 positions: the result of 180 of them, or deeper.
   EXPECT_LE(after.root_face_min.value, coarse.root_face_min.value);
   std::printf("%s root face: 180 positions %.6f, 1440 positions %.6f mm\n", name.c_str(),
               coarse.root_face_min.value, after.root_face_min.value);
@@ -121,8 +121,8 @@ TEST_P(GoldenSwept, InitialPositions) {
   EXPECT_LE(got.flank_min.value, least + 1e-10);
 }
 
-/// Every point looked at in full: all blocks within a quarter turn, then golden sections in both
-/// segments beside the best. Nothing is skipped.
+/// Every point checked in full: all blocks within a quarter turn, then golden sections in both
+/// segments next to the best. Nothing is skipped.
 class FullCheck {
  public:
   FullCheck(const Joint& joint, const Cone& cone, const groove::Setup& setup,
@@ -212,13 +212,13 @@ class FullCheck {
   Between between_;
 };
 
-/// Golden sections of nearly equal value may stop 1e-7 mm apart, so points of nearly equal value
-/// may stand for one another.
+/// Golden sections of nearly equal value may stop at points 1e-7 mm from each other, so points of
+/// nearly equal value count as equal.
 void expect_same(const Extreme& got, const Extreme& want, const std::string& what) {
   EXPECT_NEAR(got.value, want.value, 1e-7) << what;
 }
 
-// What is skipped cannot matter: smooth motions, motions with noise in every axis, coarse and fine,
+// Skipped points cannot matter: smooth motions, motions with noise in every axis, coarse and fine,
 // for cones of every kind.
 TEST(Swept, SkipsNothingThatMatters) {
   std::mt19937_64 random(18);

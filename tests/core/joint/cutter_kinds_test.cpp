@@ -13,8 +13,8 @@
 #include "tests/support/cut_oracle.hpp"
 #include "tests/support/random_cut.hpp"
 
-// Every kind of cutter through every operation that core/joint/cutters/kind.hpp asks of it, against
-// the oracle's signed distance, which knows a kind only by its description.
+// Every kind of cutter through every operation that core/joint/cutters/kind.hpp requires of it,
+// against the oracle's signed distance, which knows a kind only by its description.
 namespace tubecut::joint {
 namespace {
 
@@ -24,7 +24,7 @@ constexpr std::size_t kKinds = std::variant_size_v<Partner>;
 constexpr int kEach = 12;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// One partner with what the oracle says of it.
+/// One partner with the oracle's values.
 struct Case {
   Partner partner;
   Cutter cutter;
@@ -105,7 +105,7 @@ TEST(CutterKinds, LeaveTheirGeneratorsAtTheirOwnSurface) {
       const auto at = hit(c.prepared, line);
       ASSERT_TRUE(at);
       EXPECT_EQ(at->z, *top);
-      if (at->normal.z() < 0.1) continue;  // beside a silhouette differences tell nothing
+      if (at->normal.z() < 0.1) continue;  // differences next to a silhouette prove nothing
       const Vector3d g = c.gradient(on(line, *top));
       const Vector3d seen(g.x() * line.cos_phi + g.y() * line.sin_phi,
                           g.y() * line.cos_phi - g.x() * line.sin_phi, g.z());
@@ -324,7 +324,7 @@ TEST(CutterKinds, AreTheOraclesSolids) {
   EXPECT_GT(passing, 100);
 }
 
-/// At a corner both sides' hits are the limits of those beside it; elsewhere they are the hit.
+/// At a corner both sides' hits are the limits of the adjacent ones; elsewhere they are the hit.
 TEST(CutterKinds, TellBothSidesOfACorner) {
   const double rho = 40.0;
   for (const double offset : {12.0, -12.0, 0.0}) {

@@ -1,5 +1,6 @@
-// Legs of pipe supports: tubes that stand on a bend along one of its own straight runs. The oracle
-// is the closed form of a line through a torus and a cylinder, in the bend's plane, in long double.
+// Legs of pipe supports: tubes that are set on a bend along one of its own straight runs. The
+// oracle is the closed form of a line through a torus and a cylinder, in the bend's plane, in long
+// double.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ struct Bend {
   Real radius, bend_radius, bend;  // rad
   bool rises = false;
 
-  /// The highest place of the vertical line at (x, y); empty where it passes beside.
+  /// The highest point of the vertical line at (x, y); empty if it misses.
   [[nodiscard]] std::optional<Real> top(Real x, Real y) const {
     std::optional<Real> best;
     const auto see = [&](Real z) {
@@ -49,7 +50,7 @@ struct Bend {
     const Real px = bend_radius * (1 - cosine), pz = bend_radius * sine;
     if (std::abs(y) <= radius && std::abs(sine) > 1e-9L)
       for (const Real side : {s, -s}) {
-        // Beside its axis by `side`, in the plane: (x - px) cos - (z - pz) sin = side.
+        // At `side` from its axis, in the plane: (x - px) cos - (z - pz) sin = side.
         const Real z = pz + ((x - px) * cosine - side) / sine;
         if ((x - px) * sine + (z - pz) * cosine >= 0) see(z);
       }
@@ -97,7 +98,7 @@ class Random {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
   bool coin() { return any(0, 1) < 0.5; }
-  /// On the back of the bend (its run goes away), or inside it, beside the run that rises.
+  /// On the back of the bend (its run goes away), or inside it, next to the rising run.
   Case leg(bool inside) {
     Case c;
     c.bend.radius = any(20, 200);
@@ -131,7 +132,8 @@ IntersectionSpec spec_of(const Case& c) {
           .sampling = {.uniform_points = 48}};
 }
 
-/// The worst z of both curves beside the closed form; `slack`: where the bend leans, sideways.
+/// The worst difference of z between both curves and the closed form; `slack`: the sideways tilt of
+/// the bend.
 Real worst_of(const Case& c, const Intersection& curves) {
   Real worst = 0;
   for (const auto& curve : curves.profiles)
@@ -159,7 +161,8 @@ TEST(ElbowLeg, FollowsTheClosedForm) {
     place(c, random.coin(), 0.0, 0.0);
     const auto curves = intersect(spec_of(c));
     if (!curves) {
-      // Beside a rising run the tube may reach beyond the bend, or see it hide a part of itself.
+      // Next to a rising run the tube may reach beyond the bend, or the bend may hide a part of
+      // itself.
       const auto code = curves.error().code();
       EXPECT_TRUE(c.bend.rises &&
                   (code == ErrorCode::open_profile || code == ErrorCode::no_contact ||
@@ -190,7 +193,7 @@ TEST(ElbowLeg, LeansByTheRoundingOfADrawing) {
     ASSERT_TRUE(curves) << n << ' ' << info(curves.error().code()).code << " at " << lean;
     expect_proved(verify(spec_of(c), *curves), n);
     const double size = c.elbow.radius + c.elbow.bend_radius;
-    const double aside = size * lean;  // so far any place of the bend near the tube has moved
+    const double aside = size * lean;  // maximum displacement of the bend near the tube
     for (const auto& curve : curves->profiles)
       for (std::size_t i = 0; i < curve.phi.size(); ++i) {
         const Real phi = curve.phi[i] - c.turn;
@@ -234,7 +237,8 @@ TEST(ElbowLeg, OfABevelTableIsProved) {
   EXPECT_GE(answered, 30);
 }
 
-// Where the run goes up inside the kept tube's wall there is no end to cut; the refusal says so.
+// If the run goes up inside the kept tube's wall, there is no end to cut, and the refusal reports
+// it.
 TEST(ElbowLeg, IsRefusedWhereTheRunRisesWithin) {
   Random random;
   for (int n = 0; n < 200; ++n) {

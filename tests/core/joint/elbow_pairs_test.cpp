@@ -46,8 +46,8 @@ std::vector<Cutter> crowd(std::mt19937_64& random, int n) {
   return out;
 }
 
-/// The worst by which, away from events, another cutter stands above the one that the division
-/// names: read cutter by cutter on a grid that knows nothing of scans, bounds or pairs.
+/// The largest height, away from events, of another cutter above the one that the division names:
+/// read cutter by cutter on a grid, without scans, bounds or pairs.
 double missed(const Contour& contour, int grid) {
   double worst = 0.0;
   for (int k = 0; k < grid; ++k) {

@@ -69,7 +69,7 @@ ElbowCutter elbow(Draw& draw, double rho) {
           .inwards = Vector3d(0.0, draw.any(-0.4, 0.4), 1.0)};
 }
 
-/// Rows and the whole, and rows that are turned, tell one length: that of the polyline.
+/// Rows and the whole, and rotated rows, have one length: that of the polyline.
 void hold(const Cutter& cutter, double rho, int count, double bound, double& worst) {
   const auto contour = trace(std::array{cutter}, rho);
   ASSERT_TRUE(contour);

@@ -35,7 +35,7 @@ Member chord() { return tube("C", {-1500, 0, 0}, {1500, 0, 0}, 219.1, 10, 0); }
 Member brace(const char* name, double x, double side) {
   return tube(name, {x, 0, 0}, {x + 1000 * side, 0, 1000}, 114.3, 5);
 }
-/// Both braces joined with the chord alone.
+/// Both braces joined only with the chord.
 NodeSpec k_joint(double apart) {
   NodeSpec spec{.members = {chord(), brace("L", -apart / 2, -1), brace("R", apart / 2, 1)},
                 .connect = {}};
@@ -44,7 +44,7 @@ NodeSpec k_joint(double apart) {
 }
 
 // On the chord's crown line both braces' outer surfaces are straight lines at 45 deg, 57.15 sqrt 2
-// beside their feet: the toes touch when those meet on the crown, 2 (109.55 - 57.15 sqrt 2) before.
+// from their feet: the toes touch if those meet on the crown, 2 (109.55 - 57.15 sqrt 2) before.
 TEST(Overlap, ToesTouchWhereGeometrySays) {
   const double touching = 2.0 * (57.15 * std::sqrt(2.0) - 109.55);
   EXPECT_TRUE(found(k_joint(touching + 0.1)).empty());
@@ -89,8 +89,8 @@ TEST(Overlap, AThirdThatMeetsTwoIsSaidOfEachPair) {
   for (const auto& one : all) EXPECT_GT(one.depth, 20.0);
 }
 
-// Two tubes that cross: the one's metal reaches to the other's axis where it is the thinner, and
-// less as they move apart.
+// Two tubes that cross: the metal of one reaches to the other's axis if it is the thinner one, and
+// less as they move away from each other.
 TEST(Overlap, CrossingTubesAreAsDeepAsTheyPass) {
   for (const double apart : {0.0, 20.0, 50.0, 60.0}) {
     NodeSpec spec{.members = {tube("A", {-800, 0, 0}, {800, 0, 0}, 76.1, 4),
@@ -120,7 +120,8 @@ TEST(Overlap, ASleeveAndAButtShareNothing) {
   ASSERT_EQ(all.size(), 1U);
 }
 
-// Random pairs against points thrown into the metal of both: none is missed, none deeper than said.
+// Random pairs against random points in the metal of both: no overlap is missed, and no point is
+// deeper than reported.
 TEST(Overlap, RandomPairsAgainstThrownPoints) {
   std::mt19937_64 engine(20261122);
   const auto any = [&](double low, double high) {
@@ -179,7 +180,8 @@ TEST(Overlap, RandomPairsAgainstThrownPoints) {
 NodeSpec crossed(std::size_t count) {
   NodeSpec spec{.members = {}, .connect = Within{0.0}};
   for (std::size_t i = 0; i < count; ++i) {
-    const auto y = 100.0 * static_cast<double>(i);  // ends apart, so that none joins another
+    const auto y = 100.0 * static_cast<double>(i);  // separated ends, so that no member joins
+                                                    // another
     spec.members.push_back(tube("", {-1000, y, -1000}, {1000, -y, 1000}, 60.3, 4));
   }
   return spec;

@@ -33,7 +33,7 @@ void expect_event(const RandomNode& node, const Contour& contour, const Event& e
   double reach = 1e-4;
   for (const auto& other : contour.events)
     if (&other != &event) reach = std::min(reach, 0.5 * phase_distance(other.phi, event.phi));
-  if (reach < 1e-9) return;  // nothing can be told between two events of one place
+  if (reach < 1e-9) return;  // two events at one point cannot be separated
   const auto before = ray::highest(node.bodies, node.rho, event.phi - reach);
   const auto after = ray::highest(node.bodies, node.rho, event.phi + reach);
   ASSERT_TRUE(before && after);

@@ -364,7 +364,7 @@ TEST(Shapes, ElbowEventsOnScans) {
   EXPECT_GT(changes, 10);
 }
 
-// A hairpin whose upper leg lies beside the lower one: at the upper one's side z would jump to the
+// A hairpin whose upper leg lies next to the lower one: at the upper one's side z would jump to the
 // lower one, from the partner to itself.
 TEST(Shapes, AnElbowThatHidesItselfIsRefused) {
   const std::vector<Cutter> cutters{ElbowCutter{.radius = 50,

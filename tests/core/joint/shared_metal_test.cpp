@@ -84,15 +84,15 @@ std::vector<Vector2d> clipped(const std::vector<Vector2d>& p, const Vector2d& no
   return out;
 }
 
-/// Distances from the axis' plane that the wall has at x beside it, on one side.
+/// Distances from the axis' plane that the wall has at x from it, on one side.
 Between half_chord(double inner, double outer, double x) {
   return {std::sqrt(std::max(0.0, inner * inner - x * x)),
           std::sqrt(std::max(0.0, outer * outer - x * x))};
 }
 
-/// Do two walls whose axes cross share metal, each grown by `by`? On the planes across the common
-/// perpendicular both walls are strips along their axes, so what they share are parallelograms,
-/// cut by the ends.
+/// Returns whether two walls whose axes cross share metal, each grown by `by`. On the planes across
+/// the common perpendicular both walls are strips along their axes, so their intersections are
+/// parallelograms, cut by the ends.
 bool crossing_share(const Member& one, const Member& two, double by) {
   const Vector3d a = (one.finish - one.start).normalized();
   const Vector3d b = (two.finish - two.start).normalized();
@@ -154,7 +154,7 @@ struct Pair {
   Member one, two;
 };
 
-/// Parallel beside each other, or one round the other.
+/// Parallel next to each other, or one round the other.
 Pair beside(Draw& draw) {
   const double r = draw.any(10, 100), s = draw.any(0.2, 1.0) * r;
   const Vector3d along = draw.direction(), across = along.unitOrthogonal();
@@ -246,8 +246,8 @@ TEST(SharedMetal, CrossingAtAnyAngle) { hold_many(crossed, 2, 200); }
 TEST(SharedMetal, BarsThroughAndInTubes) { hold_many(bar, 3, 150); }
 TEST(SharedMetal, NearlyTouching) { hold_many(touching, 4, 150); }
 
-// Two braces on one chord, each cut by that alone: points of the one's wall near the chord, held
-// against the other's.
+// Two braces on one chord, each cut only by the chord: points of one wall near the chord, compared
+// with the other's.
 TEST(SharedMetal, BracesOnOneChord) {
   Draw draw(5);
   int shared = 0, clear = 0;
@@ -271,7 +271,7 @@ TEST(SharedMetal, BracesOnOneChord) {
       const Vector3d along = (m.finish - m.start).normalized();
       const double z = (p - m.start).dot(along), rho = (p - m.start).cross(along).norm();
       const double out = std::hypot(p.y(), p.z()) - radius;
-      // Behind the chord lies what was cut off.
+      // The scrap lies behind the chord.
       return std::min(
           {m.outer_radius - rho, rho - (m.outer_radius - m.wall), 900 - z, z < 0.0 ? -1.0 : out});
     };

@@ -1,4 +1,4 @@
-// What is found through boxes of chords is what all chords together tell.
+// Boxes of chords give the same result as all chords together.
 #include "core/motion/path/chords.hpp"
 
 #include <gtest/gtest.h>

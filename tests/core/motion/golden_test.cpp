@@ -247,7 +247,7 @@ TEST_P(Claim, Times) {
   EXPECT_NEAR(s.comparison->segments_time, p.segments_s, 0.01 * p.segments_s);
   EXPECT_NEAR(s.comparison->segments_stop_time, p.stops_s, 0.01 * p.stops_s);
   EXPECT_EQ(s.comparison->slow_segments, p.segments);
-  // The reference adds magnitudes; that forbids what cancels, for 0.7 % of the time at most.
+  // The reference adds magnitudes, which forbids cancellation, for at most 0.7 % of the time.
   EXPECT_LE(s.report.no_jerk, 1.001 * p.no_jerk_s);
   EXPECT_GE(s.report.no_jerk, 0.992 * p.no_jerk_s);
   EXPECT_NEAR(s.report.proven, p.proven_s, 0.001 * p.proven_s);

@@ -1,4 +1,4 @@
-// Metamorphic laws of section 9, determinism, and what a change of the request may change.
+// Metamorphic laws of section 9, determinism, and the permitted effects of a change of the request.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -151,7 +151,7 @@ TEST(Laws, AStopAtAnyMomentIsCancelled) {
     EXPECT_EQ(s.error().code(), ErrorCode::cancelled);
     ++cancelled;
   }
-  EXPECT_GT(cancelled, 0);  // how many depends on what else the machine does
+  EXPECT_GT(cancelled, 0);  // the number depends on the load of the machine
 }
 
 TEST(Laws, WithoutJerkTheOptimumIsReached) {

@@ -69,7 +69,7 @@ std::optional<EverydayCut> everyday(Dice& dice) {
 
 using Point = std::array<double, 3>;
 
-/// The finished surface as a net of points, a tenth of a mm apart along the cut.
+/// The finished surface as a net of points, spaced a tenth of a mm along the cut.
 std::vector<Point> net(const EverydayCut& cut) {
   const auto& t = cut.table;
   std::vector<Point> out;
@@ -92,8 +92,8 @@ std::vector<Point> net(const EverydayCut& cut) {
   return out;
 }
 
-/// How far a beam as wide as the kerf on its lead reaches beyond the finished surface, mm; a net
-/// of points 0.1 mm apart shows it within 0.002.
+/// Depth that a beam as wide as the kerf on its lead reaches beyond the finished surface, mm; a net
+/// of points every 0.1 mm shows it within 0.002.
 double deepest(const EverydayCut& cut, const CutPath& contour, const ScheduleSpec& spec,
                LeadBevel bevel) {
   const auto points = net(cut);

@@ -1,6 +1,6 @@
-// Leads and pierces stay out of the finished part. The point-in-solid test here is written from the
-// solid alone: the end is a function z(phi) with a bevel b(phi), the hole a closed curve, both in
-// closed form.
+// Leads and pierces stay out of the finished part. The point-in-solid test here uses only the
+// solid: the end is a function z(phi) with a bevel b(phi), the hole a closed curve, both in closed
+// form.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -269,7 +269,8 @@ TEST(Leads, OvercutGoesOn) {
   for (const Check& check : verify(spec, s)) EXPECT_TRUE(check.passed()) << check.name;
 }
 
-/// A window of 12 mm by 12, its points so far apart along the tube, begun in the middle of a side.
+/// A window of 12 mm by 12, with this spacing of points along the tube, begun in the middle of a
+/// side.
 CutPath window(double step) {
   CutPath out{.outer_radius = 30.15, .wall = 4.0, .scrap = Scrap::inside};
   const double wide = 12.0 / out.outer_radius;
@@ -287,8 +288,8 @@ CutPath window(double step) {
   return out;
 }
 
-// All but for rounding: a point beside the last would be that point again, and the path have no
-// direction there.
+// Except for rounding: a point next to the last would be that point again, and the path would have
+// no direction there.
 TEST(Leads, OvercutThatEndsAtAPointHasNoneTwice) {
   for (const double step : {0.1, 0.3, 0.7})
     for (int k = 1; k <= 12; ++k) {
@@ -349,7 +350,7 @@ Cope everyday(Dice& dice) {
   return c;
 }
 
-/// Points whose chords leave the cope by `tolerance`, no farther apart than 5 deg.
+/// Points whose chords deviate from the cope by `tolerance`, with at most 5 deg between them.
 CutPath sampled_cope(const Cope& cope, double tolerance) {
   CutPath c;
   c.outer_radius = cope.outer;

@@ -1,7 +1,7 @@
 // The plan without jerk limits against a bound from below: the time of u(t) is a convex function of
 // x = u_dot^2 at the knots, so its tangent at any point, minimised over the limits by GLPK, lies
-// below every time. The limits are asked for at three places of every interval alone, with
-// derivatives by differences of the axis values, which is less than the planner must hold.
+// below every time. The limits are applied only at three points of every interval, with derivatives
+// by differences of the axis values, which is less than the planner must hold.
 #include <glpk.h>
 #include <gtest/gtest.h>
 
@@ -130,7 +130,7 @@ std::vector<double> gains(const std::vector<double>& x, double d) {
   return out;
 }
 
-/// A bound below every time: tangents at the plan and on the way from it to what they ask for.
+/// A bound below every time: tangents at the plan and on the way from it to their minimiser.
 double lower_bound(Relaxation& limits, std::vector<double> x, double d, double good_enough) {
   double best = 0.0;
   for (int tangent = 0; tangent < 4 && best < good_enough; ++tangent) {

@@ -1,4 +1,4 @@
-// Machines: what is refused of them, the built-in ones, columns.
+// Machines: refusals, the built-in ones, columns.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -22,7 +22,7 @@ int job_count() {
   return wanted == nullptr ? kJobsInEveryRun : std::max(1, std::atoi(wanted));
 }
 
-/// Length of the tip's path that the counts alone prove: chords over many periods, less the quantum
+/// Length of the tip's path proven by only the counts: chords over many periods, less the quantum
 /// at both ends.
 double proven_length(const ScheduleSpec& spec, const Schedule& s) {
   const auto& contour = std::get<CutPath>(spec.cut);
@@ -93,7 +93,7 @@ TEST(RandomJobs, HoldEveryInvariant) {
   RecordProperty("stretched", figures.stretched);
 }
 
-/// The proven mode alone never needs repair, and what is returned is never slower.
+/// The proven mode by itself never needs repair, and the returned plan is never slower.
 TEST(RandomJobs, NeverSlowerThanTheProvenMode) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     ScheduleSpec spec = random_job(seed);

@@ -1,4 +1,4 @@
-// What a whole schedule is refused for, and what its report says.
+// Refusals of a whole schedule, and the content of its report.
 #include <gtest/gtest.h>
 
 #include <algorithm>

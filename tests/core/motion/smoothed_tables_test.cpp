@@ -76,8 +76,8 @@ bool meet(const SlowZone& a, const SlowZone& b) {
   return a.phi_from <= b.phi_to + kNear && b.phi_from <= a.phi_to + kNear;
 }
 
-/// Slow zones of the table's cut that are none with B held; empty when there is no such cut. A zone
-/// starts below half of the speed, and the two plans are filtered each for itself: one of these
+/// Slow zones of the table's cut that do not exist with B held; empty if there is no such cut. A
+/// zone starts below half of the speed, and the two plans are filtered separately: one of these
 /// nodes has a junction of 0.15 mm held at 63 % and swung at 44 %, for 0.1 s of 27.6.
 std::optional<int> zones_by_swinging(const bevel::TableSpec& spec) {
   const auto table = bevel::table(spec);

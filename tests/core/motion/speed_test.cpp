@@ -1,4 +1,4 @@
-// The speed asked for: tables by the beam, surfaces.
+// The requested speed: tables by the beam, surfaces.
 #include <gtest/gtest.h>
 
 #include <algorithm>

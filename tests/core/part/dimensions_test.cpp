@@ -275,7 +275,7 @@ TEST(CheckDimensions, AProgramForAnotherTubeIsSeen) {
   EXPECT_GT(wall, kSeen);
 }
 
-// What a dimension does not name does not change it: the table can be read backwards.
+// A mistake changes only the dimensions that name it, so the table can be read backwards.
 TEST(CheckDimensions, OnlyWhatIsNamedChanges) {
   double worst = 0;
   for (const auto& made : parts(40, 9)) {

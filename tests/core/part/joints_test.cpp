@@ -1,5 +1,5 @@
-// One joint by three ways: the chord's hole, the branch's own end and the hole endpoint's, put into
-// the world and measured there in long double, from the members' centre-lines alone.
+// One joint in three ways: the chord's hole, the branch's own end and the hole endpoint's, put into
+// the world and measured there in long double, only from the members' centre-lines.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using joint::JointKind;
 constexpr Real kFit = 0.01L;          // mm
 constexpr double kTolerance = 0.004;  // mm, of the sampling
 
-/// How many of each kind: a few, or what TUBECUT_JOINTS says.
+/// Number of each kind: a few, or TUBECUT_JOINTS.
 int count_of_each() {
   const char* asked = std::getenv("TUBECUT_JOINTS");  // NOLINT(concurrency-mt-unsafe)
   return asked == nullptr ? 12 : std::atoi(asked);
@@ -59,7 +59,7 @@ Point mix(const Point& a, const Point& b, Real t) {
   return out;
 }
 
-/// Off the asked distance at the root, and how far below it anything comes.
+/// Error of the requested distance at the root, and the largest amount below it anywhere.
 struct Seen {
   Real root = 0, under = 0;
   void see(const Point& at_root, const Point& face, const joint::Member& from, Real asked) {
@@ -105,7 +105,7 @@ struct Pair {
   bevel::TableSpec cut;
 };
 
-/// A branch on a chord, both turned anyhow in the world; the joint is said by one or by both.
+/// A branch on a chord, both turned at random in the world; the joint is stated by one or by both.
 Pair random_pair(Random& random, JointKind kind) {
   Pair out;
   joint::Member chord{.name = "C"}, branch{.name = "B"};
@@ -148,7 +148,7 @@ part::MemberSpec member_spec(const Pair& pair, std::size_t member) {
   out.node = pair.node;
   out.member = member;
   out.cut = pair.cut;
-  // Where nothing cuts an end to one side, phi is 0 on a side that is told.
+  // If nothing cuts one side of an end, phi is 0 on the stated side.
   if (member == 0 || pair.joint.kind == JointKind::through) {
     const auto& m = pair.node.members[member];
     out.datum = part::Datum::up;
@@ -181,7 +181,7 @@ Result<Made> make(const part::MemberSpec& spec) {
   return Made{*std::move(found), *std::move(made)};
 }
 
-/// What is said besides that far ends are free.
+/// Warnings other than the free far ends.
 std::vector<Warning> said(const Made& m) {
   auto out = m.found.warnings;
   out.insert(out.end(), m.part.warnings.begin(), m.part.warnings.end());
@@ -242,8 +242,8 @@ void measure(const Pair& pair, const Made& chord, const Made& branch, Seen& end,
 
 class StatedJoint : public ::testing::TestWithParam<JointKind> {};
 
-// The branch's end lies on its seat in the chord, the hole's wall stands the gap off the branch,
-// and the branch's end is the same by members and from the hole's answer.
+// The branch's end lies on its seat in the chord, the hole's wall is at the gap's distance from the
+// branch, and the branch's end is the same by members and from the hole's answer.
 TEST_P(StatedJoint, ChordAndBranchFitInTheWorld) {
   Random random{std::mt19937_64(20261122)};
   const auto kind = GetParam();
@@ -321,7 +321,7 @@ std::vector<Point> rim(const Made& m, const std::vector<std::size_t>& start_cutt
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Real dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Both faces are planes, parallel, the gap apart; without a gap the edges lie on one another.
+// Both faces are planes, parallel, at the distance of the gap; without a gap the edges coincide.
 TEST(StatedMitre, TheFacesMeetInOnePlane) {
   Random random{std::mt19937_64(31)};
   Real off = 0, edges = 0;
@@ -377,7 +377,7 @@ TEST(StatedMitre, AxesThatMissEachOtherAndDiametersThatDifferAreSaid) {
   EXPECT_EQ(steps, 2);
 }
 
-/// What the outer points of an edge span along a direction.
+/// Span of the outer points of an edge along a direction.
 std::pair<Real, Real> span_of(const std::vector<Point>& edge, const Point& along) {
   std::pair<Real, Real> out{1e30L, -1e30L};
   for (std::size_t i = 1; i < edge.size(); i += 2) {
@@ -395,7 +395,7 @@ ErrorCode refused(const joint::NodeSpec& node, std::string_view at) {
 }
 
 // Tubes of different sizes, trimmed at the plane through the corners of their outlines, meet edge
-// to edge there: in the plane of both axes neither stands out beyond the other. A bisecting plane
+// to edge there: in the plane of both axes neither extends beyond the other. A bisecting plane
 // leaves a step.
 TEST(StatedMitre, UnlikeTubesMeetCornerToCorner) {
   Random random{std::mt19937_64(77)};
@@ -496,7 +496,7 @@ TEST(StatedJoints, WhatCannotBothBeRightIsRefused) {
     node.joints = {{2, 0, {.kind = kind}}};
     EXPECT_EQ(refused(node, "members/2/joints/0"), ErrorCode::no_contact);
   }
-  // The hole says otherwise than the members; the end's root gap too.
+  // The hole contradicts the members; the end's root gap too.
   auto spec = member_spec(good, 0);
   spec.holes[0].cut.gap += 0.5;
   const auto found = part::find_member(spec);

@@ -54,8 +54,8 @@ Built next(Random& random, const joint::Sampling& sampling, int& refused) {
   }
 }
 
-// Both ends, placed back in the world from the part frame alone, meet the partners that joined
-// them there: nowhere inside, and the root on one of them.
+// Both ends, placed in the world only by the part frame, meet the partners that joined them there:
+// nowhere inside, and the root on one of them.
 TEST(Part, FiveHundredMembersMeetTheirPartnersInTheWorld) {
   Random random{std::mt19937_64(20261121)};
   int refused = 0;
@@ -460,7 +460,7 @@ part::PartSpec drilled(std::initializer_list<double> heights, double clocking = 
   return spec;
 }
 
-/// What such holes take: slices across the branches, the lengths along the chord united.
+/// Volume of such holes: slices across the branches, the lengths along the chord united.
 double drilled_volume(std::vector<double> heights, double from, double to) {
   std::ranges::sort(heights);
   double sum = 0;
@@ -494,7 +494,7 @@ TEST(Part, WhatTwoHolesShareIsTakenOnce) {
       const auto p = part::part(spec);
       ASSERT_TRUE(p);
       const double exact = drilled_volume(heights, 0, 900);
-      // The wall's lines are tangent to the branch: outside they stand up to 0.03 mm off it.
+      // The wall's lines are tangent to the branch: outside they are up to 0.03 mm off it.
       EXPECT_NEAR((whole - p->lengths.volume) / exact, 1.0, 1e-3)
           << heights[0] << " " << heights[1];
       const bool meeting = std::abs(heights[0] - heights[1]) < 24;
@@ -508,7 +508,7 @@ TEST(Part, WhatTwoHolesShareIsTakenOnce) {
   }
 }
 
-// Beyond an end there is nothing to take: however many holes stand there, the first is refused.
+// Beyond an end there is nothing to cut: with any number of holes there, the first is refused.
 TEST(Part, AHoleBeyondAnEndIsRefused) {
   for (const auto& heights : {std::vector<double>{-60}, {-60, -70}, {960}, {400, 960, 955}}) {
     part::PartSpec spec = drilled({});

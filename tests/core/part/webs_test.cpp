@@ -51,7 +51,7 @@ PartSpec spec() {
   return out;
 }
 
-/// Points along a line, a thirtieth of a millimetre apart.
+/// Points along a line, spaced a thirtieth of a millimetre.
 std::vector<std::pair<double, double>> dense(const std::vector<double>& phi,
                                              const std::vector<double>& z, double radius,
                                              double closing) {

@@ -59,7 +59,7 @@ ProgramSpec program() {
   return out;
 }
 
-/// Of one axis, in its unit, so many periods on.
+/// Value of one axis, in its unit, after `periods` periods.
 double value(const ProgramSpec& spec, const motion::Schedule& s, std::size_t axis,
              std::int64_t periods) {
   std::int64_t sum = 0;
@@ -224,7 +224,7 @@ TEST_F(Scheduled, EveryFaultIsSeen) {
   s = *s_;
   std::ranges::find(s.whole.events, EventKind::torch_off, &motion::Event::what)->period += 1;
   sees("torch_lit", spec, s);
-  s = *s_;  // the retract left out, and what follows with it
+  s = *s_;  // without the retract and the moves that follow from it
   const auto& rapid = s.segments[3];
   for (auto k = rapid.from; k < rapid.to; ++k)
     s.whole.axes[2].counts[static_cast<std::size_t>(k)] = 0;
@@ -274,7 +274,7 @@ TEST(ProgramSchedule, IsRefusedByCutAndReason) {
   EXPECT_EQ(std::get<double>(made.error().issues.front().limit), 5000.0);
 }
 
-// Without leads, from the first point on, and begun at an angle asked for.
+// Without leads, from the first point on, and begun at a requested angle.
 TEST(ProgramSchedule, ComesStraightOntoTheCut) {
   auto spec = program();
   spec.setup.lead = {};
@@ -429,14 +429,14 @@ TEST(ProgramSchedule, CutsFromTabToTab) {
     ASSERT_TRUE(last);
     EXPECT_EQ(last->cuts.size(), 6u);
     EXPECT_TRUE(broken(of_last, *last).empty());
-    // Cut by the wider tabs' program the narrower ones are not held to be the asked ones.
+    // A program with wider tabs is not accepted for narrower requested ones.
     auto wider = of_last;
     wider.setup.tabs->width = 3.0;
     EXPECT_FALSE(broken(wider, *last).empty());
   }
 }
 
-// Tabs that end at points of the cut but for rounding: none stands twice in a stretch.
+// Tabs that end at points of the cut except for rounding: no point occurs twice in a segment.
 TEST(ProgramSchedule, BeginsAndEndsStretchesAtPoints) {
   for (const int count : {9, 10}) {
     auto spec = program();

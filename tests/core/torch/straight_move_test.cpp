@@ -25,8 +25,8 @@ double least_time(double v, double a, double j) {
   return 2.0 * ramp(low);
 }
 
-// Speed, acceleration and jerk by differences of the way alone, against the limits; the time
-// against the least of all.
+// Speed, acceleration and jerk by differences of only the distance, against the limits; the time
+// against the minimum of all.
 TEST(StraightMove, IsTheFastestWithinItsLimits) {
   std::mt19937_64 engine(21);
   std::uniform_real_distribution<double> power(-2.0, 2.0);
@@ -59,7 +59,7 @@ TEST(StraightMove, WithoutJerkLimitsJumpsItsAcceleration) {
   EXPECT_DOUBLE_EQ(SCurve::fastest(100.0, 4.0, std::nullopt).at(0.25), 0.125);
 }
 
-// The slowest axis decides; the tip's speed where one is asked for; nothing where nothing moves.
+// The slowest axis decides; the tip's speed if one is requested; nothing if nothing moves.
 TEST(StraightMove, IsTimedByItsSlowestAxis) {
   Machine machine;
   machine.period = 0.004;

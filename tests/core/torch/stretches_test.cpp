@@ -57,7 +57,7 @@ At at(const motion::CutPoint& p, double rho) {
   return {rho * p.phi, p.z - (kRadius - rho) * std::tan(p.b)};
 }
 
-/// Places along a way, no further apart than 0.05 mm.
+/// Points along a path, spaced at most 0.05 mm.
 std::vector<motion::CutPoint> dense(const std::vector<motion::CutPoint>& way) {
   std::vector<motion::CutPoint> out;
   for (std::size_t i = 1; i < way.size(); ++i) {
@@ -123,9 +123,9 @@ TEST(Stretches, ASquareCutLeavesTheTabsOfItsInnerWall) {
   }
 }
 
-// Of bevels that swing and contours that sway, with leads and without: by brute force no tab is
-// narrower than asked, none wider than a bevel's own difference of the walls explains, and the
-// stretches are the cut's own places.
+// For bevels that swing and contours that sway, with leads and without: by brute force no tab is
+// narrower than requested, no tab is wider than a bevel's own difference of the walls explains, and
+// the segments consist of the cut's own points.
 TEST(Stretches, NoTabIsNarrowerThanAskedOnEitherWall) {
   std::mt19937 draw(20261125);
   const auto of = [&](double from, double to) {
@@ -163,7 +163,7 @@ TEST(Stretches, NoTabIsNarrowerThanAskedOnEitherWall) {
   EXPECT_GT(held, 30);
 }
 
-// Narrower by 0.1 mm where a stretch goes on by so much: the proof's own figure sees it.
+// Narrower by 0.1 mm if a segment is longer by that: the verification's own figure sees it.
 TEST(Stretches, AStretchThatGoesOnIsSeen) {
   const auto cut = ring(10.0, 0.4, 2, 0.7);
   const auto asked = setup(3, 2.0, 4.0);

@@ -21,7 +21,8 @@ export const checks = Object.fromEntries(cases.map(([width, height, theme]) => [
     await then(page, () => page.locator(`#endpoints [data-endpoint="${hash}"]`).click());
     await sound(page, hash);
   }
-  if (width > 1000 || theme === 'dark') {  // members beside their picture, and one of them told
+  // members next to their picture, and one of them described
+  if (width > 1000 || theme === 'dark') {
     await then(page, () => page.evaluate(() => {
       location.hash = '#/frames/jacket-node-with-set-in-stubs?item=1';
     }));

@@ -180,7 +180,7 @@ export const checks = {
     const [first, second] = [field(page, '/cutters/0/inclination_deg'), field(page, '/cutters/1/inclination_deg')];
     const kept = await second.getAttribute('placeholder');
     assert.notEqual(await first.getAttribute('placeholder'), kept);
-    await page.route('**/v1/**', () => {});  // never answered: what shows is what the page had
+    await page.route('**/v1/**', () => {});  // never answered: the page shows only its own content
     await page.getByRole('button', {name: 'Remove row 1', exact: true}).click();
     assert.equal(await first.getAttribute('placeholder'), kept);
     await page.context().close();

@@ -59,7 +59,7 @@ async function named({browser, origin, service}) {
   }
 }
 
-/** A frame's packet with the files that are ticked; what its programs need goes with them alone. */
+/** A frame's packet with the ticked files; the settings of its programs go only with those. */
 async function packet({browser, origin, service}) {
   const body = await readFile(new URL('../../../examples/frames/truss-of-19.json', import.meta.url));
   const page = await open(browser, origin, '#/frames/truss-of-19?tab=downloads');

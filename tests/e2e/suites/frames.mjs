@@ -1,4 +1,4 @@
-// A frame in the console: its members where they stand, what is chosen, and the part that it leads to.
+// A frame in the console: its members in place, the selection, and the part to which it leads.
 import {strict as assert} from 'node:assert';
 import {readdirSync, readFileSync} from 'node:fs';
 import {answered, open, pixels, then} from '../browser.mjs';
@@ -27,7 +27,10 @@ const choose = async (page, index) => {
   await pixels(page);
 };
 
-/** Of the pixels in the colour of what is chosen: their number, and where their middle is, as shares of the canvas. */
+/**
+ * Of the pixels in the selection's colour: their number, and their centre, as fractions of the
+ * canvas.
+ */
 const lit = (page) => page.evaluate(() => {
   const from = document.querySelector('.canvas canvas');
   const copy = Object.assign(document.createElement('canvas'), {width: from.width, height: from.height});
@@ -45,7 +48,10 @@ const lit = (page) => page.evaluate(() => {
   return {count, x: x / count / copy.width, y: y / count / copy.height};
 });
 
-/** How much round a place of the canvas, up to two pixels off, is in the colour of what is chosen, in the next picture. */
+/**
+ * Number of pixels around a point of the canvas, up to two pixels off, in the selection's colour,
+ * in the next picture.
+ */
 const litAt = (page, at) => page.evaluate(async ([x, y]) => {
   await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
   const from = document.querySelector('.canvas canvas');
@@ -245,7 +251,8 @@ export const checks = {
       }));
       assert.ok(dots.length >= least, `${name}: ${dots.length} dots`);
       for (const {item, x, y} of dots.slice(0, 4)) {
-        await page.mouse.click(box.x + box.width - 5, box.y + 60);  // nothing: names move to what is chosen, over dots
+        // nothing: names move to the selection, over dots
+        await page.mouse.click(box.x + box.width - 5, box.y + 60);
         await pixels(page);
         await page.mouse.click(x, y);
         const {branch, chord} = result.joints[item - result.members.length];
@@ -253,7 +260,7 @@ export const checks = {
         assert.ok(told.startsWith(`${branch} `) && told.endsWith(` ${chord}`), `${told} is not ${branch} and ${chord}`);
         await page.mouse.move(box.x + box.width - 5, box.y + 60);
         await pixels(page);
-        // Beside a bend the cut end stands off the axis that the dot is at.
+        // Next to a bend the cut end is off the axis on which the dot lies.
         const round = [7, 14].flatMap((far) => Array.from({length: 16}, (_, i) => [x - box.x + far * Math.cos(i * Math.PI / 8), y - box.y + far * Math.sin(i * Math.PI / 8)]));
         const shares = await Promise.all(round.map(([u, v]) => litAt(page, [u / box.width, v / box.height])));
         assert.ok(Math.max(...shares) > 0.3, `${told} is not where its dot is`);

@@ -1,4 +1,5 @@
-// A model of another program in the console: dropped or chosen, its frame seen and gone on with, what was left out said.
+// A model of another program in the console: dropped or chosen, its frame shown and continued, the
+// omitted items reported.
 import {strict as assert} from 'node:assert';
 import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
@@ -43,7 +44,7 @@ const frames = async (browser, origin, size) => {
   await pixels(page);
   return page;
 };
-// Also what the worker fetched, which the page's own list does not hold.
+// Also the worker's requests, which the page's own list does not contain.
 const fetched = (page) => page.fetched;
 const request = async (page) => {
   await page.locator('#tab-json').click();
@@ -134,7 +135,8 @@ export const checks = {
     assert.deepEqual({members, others, joints}, {members: expected.members, others: expected.others, joints: expected.joints});
     assert.equal(await page.locator('#verdict .pill').innerText(), 'ok');
     assert.ok(!fetched(page).some((name) => /web-ifc/.test(name)), 'the parser of IFC is for IFC');
-    // The frame is edited and kept as any request; a field of it is no reason to forget what was left out.
+    // The frame is edited and kept as any request; an edited field does not discard the list of
+    // omitted items.
     await then(page, () => page.locator('[data-pointer="/members/0/end_mm/0"], [data-pointer="/members/0/id"]').first().fill('first'));
     assert.equal(await page.locator('#imported-said').count(), 1);
     clean(page);

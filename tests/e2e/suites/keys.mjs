@@ -1,4 +1,4 @@
-// Console and API reference of a service that asks for a key.
+// Console and API reference of a service that requires a key.
 import {strict as assert} from 'node:assert';
 import {execFileSync} from 'node:child_process';
 import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';

@@ -1,4 +1,4 @@
-// What a link opens, and what is said where there is no verdict: a damaged link, a service that is away.
+// Opening links, and the message without a verdict: a damaged link, a service that is away.
 import {strict as assert} from 'node:assert';
 import {readFile} from 'node:fs/promises';
 import {deflateRawSync} from 'node:zlib';
@@ -39,7 +39,7 @@ export const checks = {
       'an example cut short': '#/bevel-tables/source-000-ta',
       'an endpoint changed': hash.replace('bevel', 'bevle'),
     };
-    // One character for another, all along the link: each may be another job that is none the worse.
+    // One character replaced, all along the link: each may be another valid job.
     for (let at = start; at < hash.length; at += Math.ceil((hash.length - start) / 12)) {
       links[`character ${at} changed`] = hash.slice(0, at) + (hash[at] === 'A' ? 'B' : 'A') + hash.slice(at + 1);
     }

@@ -1,4 +1,4 @@
-// What is shown of an answer is what the service says: its checks, its curves, its parts, the values sent.
+// The page shows the service's answer: its checks, its curves, its parts, the sent values.
 import {strict as assert} from 'node:assert';
 import {readFile} from 'node:fs/promises';
 import {answered, formed, open, pixels, then} from '../browser.mjs';
@@ -8,7 +8,7 @@ const clean = (page) => assert.deepEqual(page.faults, [], 'errors in the browser
 const examplesOf = async (service) => JSON.parse((await service.ask('/v1/examples', {method: 'GET'})).text).examples;
 const hashOf = ({endpoint, name}) => `#/${endpoint}/${name}`;
 
-/** The page, with what the service answers to `endpoint` changed. */
+/** The page, with the service's answers of `endpoint` changed. */
 async function changed(page, endpoint, change) {
   await page.route(`**/v1/${endpoint}`, async (route) => {
     const reply = await route.fetch();
@@ -254,7 +254,7 @@ export const checks = {
         const share = Math.min(1, Math.max(0, ((x - u) * (p - u) + (y - v) * (q - v)) / ((p - u) ** 2 + (q - v) ** 2)));
         return Math.hypot(x - u - share * (p - u), y - v - share * (q - v));
       }));
-      // It touches 1 to 3° beside the plane, for which it is corrected by up to 0.23 mm.
+      // It touches 1 to 3° from the plane, for which it is corrected by up to 0.23 mm.
       for (const corner of [wall[2], wall[3]]) assert.ok(off(corner) < 0.25, `the flank is ${off(corner)} mm off the groove at ${omega}`);
     }
     await page.locator('#view-before').click();

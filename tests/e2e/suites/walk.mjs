@@ -9,7 +9,10 @@ const clean = (page) => {
 const pill = (page) => page.locator('#verdict .pill').innerText();
 const endpoint = (page) => page.locator('#endpoints [aria-current]').getAttribute('data-endpoint');
 
-/** Goes on by Tab, or back, until what is focused is that; how many steps it took. What is focused is seen, and has an outline. */
+/**
+ * Presses Tab, or back, until the selector is focused; returns the number of steps. The focused
+ * element is visible and has an outline.
+ */
 async function tabTo(page, selector, {key = 'Tab', most = 60} = {}) {
   for (let steps = 1; steps <= most; ++steps) {
     await page.keyboard.press(key);
@@ -32,7 +35,7 @@ async function byKeyboard({browser, origin}) {
   await answered(page);
   await then(page, () => press(page, '#blank'));
   assert.ok(await page.evaluate(() => document.activeElement.closest('#form') !== null), 'a blank job begins in its form');
-  // Two more tubes and a plate beside the one tube and the one partner of a blank job.
+  // Two more tubes and a plate in addition to the one tube and the one partner of a blank job.
   const kinds = async () => (await page.locator('#form .tubes tbody tr, #form .card').count());
   const before = await kinds();
   await then(page, () => press(page, '[aria-label^="Add to partners: tube"]'));

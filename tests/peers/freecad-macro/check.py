@@ -21,7 +21,7 @@ import tubecut  # noqa: E402
 
 OUTER, INNER, LENGTH = 35.0, 30.0, 400.0
 PARTNERS = [(110, 85, 0, 0), (70, 65, 90, 15), (70, 35, 245, -5), (70, 55, 320, 0)]  # diameter, inclination, clocking, offset
-# Where the tube stands in the document: nothing may depend on it being the origin.
+# Position of the tube in the document: nothing may depend on it being the origin.
 PLACE = App.Placement(App.Vector(120, -40, 75), App.Rotation(App.Vector(1, 2, 3), 40))
 SECTION_MM, ANGLE_DEG = 1e-3, 0.01
 RAYS = 100
@@ -203,7 +203,8 @@ def refusals(document, target, partners, client):
         except cut_tube.CutError as error:
             expect(f"refuses: {name}", word in str(error) and len(document.Objects) == before)
     try:
-        # The small one stands on the large one and is narrower than the tube: at its sides the cut falls to the large one.
+        # The small one is set on the large one and is narrower than the tube: at its sides the cut falls to the large
+        # one.
         across = App.Rotation(App.Vector(0, 1, 0), 90)
         small, large = (tube(document, name, radius, radius - 2, 600, PLACE.multiply(App.Placement(App.Vector(-300, 0, z), across)))
                         for name, radius, z in (("Small", 20, 60), ("Large", 60, 0)))

@@ -1,6 +1,6 @@
 // Reads cases (compare.py writes them) and lets Open CASCADE cut: a line for each kind of
-// comparison with the points compared and the largest deviation in mm. With `--time TOLERANCE` its
-// curves alone, made to so many mm: a line with the ms they take, the points compared and the
+// comparison with the points compared and the largest deviation in mm. With `--time TOLERANCE` only
+// its curves, made to that tolerance in mm: a line with the time in ms, the points compared and the
 // largest deviation.
 #include <GeomAPI_IntCS.hxx>
 #include <GeomAPI_IntSS.hxx>
@@ -146,7 +146,7 @@ void report(const char* name, const Worst& worst) {
 
 struct Case {
   std::vector<Partner> partners;
-  std::vector<std::pair<double, std::vector<Point>>> surfaces;  // radius, and what was answered
+  std::vector<std::pair<double, std::vector<Point>>> surfaces;  // radius, and the answered points
 };
 
 bool read(Case& out) {
@@ -177,7 +177,7 @@ void compare(const Case& of) {
   report("curve", out.curve);
 }
 
-/// Every surface with every partner: what a cut of them takes at the least.
+/// Every surface with every partner: the minimum work of their cut.
 void time(const Case& of, double tolerance) {
   constexpr int kRounds = 9;
   std::vector<double> ms;

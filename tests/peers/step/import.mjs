@@ -1,4 +1,5 @@
-// import.mjs FOLDER FILE: what occt-import-js, installed in FOLDER, makes of a STEP file, as JSON.
+// import.mjs FOLDER FILE: prints the result of occt-import-js, installed in FOLDER, for a STEP
+// file, as JSON.
 import {readFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 

@@ -1,6 +1,6 @@
-// Reads STEP files by Open CASCADE. Input: a line "path points", then so many points; output: a
-// line a file: solids, shells, faces, 1 if BRepCheck finds it valid, volume, largest distance of a
-// point.
+// Reads STEP files by Open CASCADE. Input: a line "path points", then that number of points;
+// output: a line per file: solids, shells, faces, 1 if BRepCheck finds it valid, volume, largest
+// distance of a point.
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>

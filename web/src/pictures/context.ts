@@ -2,7 +2,10 @@ import type {Json, Row} from '../json';
 import {ask, type Answer} from '../service';
 import type {Sizes} from './geometry';
 
-/** What a picture may need besides request and answer: sizes by name, and further (pure) answers. */
+/**
+ * Data that a picture may need in addition to request and answer: sizes by name, and further (pure)
+ * answers.
+ */
 export interface Context {
   sizes: Sizes;
   /** Machines by name. */
@@ -14,7 +17,10 @@ export type Draw = (body: Row, answer: Answer, context: Context) => Promise<impo
 export const common = new Set(['reference', 'log', 'numerics', 'accept']);
 export const without = (body: Row, names = common): Row => Object.fromEntries(Object.entries(body).filter(([key]) => !names.has(key)));
 
-/** Answers are kept, they are pure; what was not answered is asked anew, and is an error of the picture that needs it. */
+/**
+ * Keeps answers, because they are pure; repeats requests without an answer, and reports an error
+ * for the picture that needs them.
+ */
 export function contextOf(sizes: Sizes, machines: Map<string, Row>): Context {
   const known = new Map<string, Promise<Answer>>();
   const answered = async (endpoint: string, body: Json): Promise<Answer> => {

@@ -10,7 +10,7 @@ import {finished, reach} from './part';
 
 const link = 'frame';
 
-/** The finished parts where they stand in the world. */
+/** Returns the finished parts in their positions in the world. */
 export async function wholeFrame(_: Row, answer: Answer, context: Context): Promise<Picture> {
   const given = told(answer);
   const {result, request} = answer;
@@ -108,7 +108,7 @@ function assemblyOf(given: Told, lines: Row[]): Assembly {
   return {parts, members, lights: lightsOf(given), joints: jointsOf(given, {parts, members}, lines, rowsOf(given.answer.request['others']))};
 }
 
-/** Where branches end on what they are joined to, or pass through it. */
+/** Returns the joints: where branches end on their partners, or pass through them. */
 function jointsOf(given: Told, {parts, members}: Pick<Assembly, 'parts' | 'members'>, lines: Row[], others: Row[]): Assembly['joints'] {
   const places = new Map(members.map(({name}, i) => [name, i]));
   return given.joints.flatMap((joint, j) => {
@@ -162,7 +162,7 @@ function along(row: Row): Frame {
   return {origin: start, x, y: [z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]], z};
 }
 
-/** The other bodies, as large as what is joined to them asks for. */
+/** Returns the other bodies, in the size that their joints need. */
 function partners(given: Told, lines: Row[], others: Row[], sizes: Sizes): Partner[] {
   const byId = new Map(lines.map((line) => [line['id'], line]));
   return others.map((other, tone) => {
@@ -184,7 +184,7 @@ function placeOf(other: Row): [Vector, Vector] {
   return [vector(axis['point_mm']), unitVector(vector(axis['direction'] ?? axis['normal']))];
 }
 
-/** How far the straight legs of a bend go for what is joined to them. */
+/** Returns the lengths of a bend's straight legs that its joints need. */
 function legsOf({point, direction, inwards, bend, angle}: Extract<Partner, {kind: 'elbow'}>, ends: Vector[], least: number): [number, number] {
   const towards = unitVector(add(inwards, direction, -dot(inwards, direction)));
   const out = add(direction.map((v) => v * Math.cos(angle)) as Vector, towards, Math.sin(angle));

@@ -5,7 +5,7 @@ import type {Answer, Issue, Warning} from '../service';
 import {choice, measured, sentence} from '../words';
 import {figures, plural, text} from './facts';
 
-/** What may be made of a member: its part's verdict, or what the frame says of it where that is worse. From good to bad. */
+/** State of a member: its part's verdict, or the frame's if that is worse. From good to bad. */
 export const standings = ['ok', 'review', 'reject', 'none'] as const;
 type Standing = (typeof standings)[number];
 export const toneOf = (standing: string) => `cut-${standing}`;
@@ -37,7 +37,7 @@ export function told(answer: Answer): Told {
 /** "48.3 × 3.2" */
 export const size = (row: Row) => [row['outer_diameter_mm'], row['wall_mm']].map((value) => text('wall_mm', value)).join(' × ');
 
-/** Members, joints and different parts, each with what is known of it. */
+/** Returns members, joints and different parts, each with its facts. */
 export function itemsOf(given: Told): Inspected['lists'] {
   const place = new Map(given.members.map((member, i) => [String(member['id']), i]));
   return [
@@ -94,7 +94,7 @@ function partItem(given: Told, at: number, place: Map<string, number>): Item {
   };
 }
 
-/** What is known of a part by itself; it leads nowhere. */
+/** Returns the facts of a part by itself; it leads nowhere. */
 function partFacts(given: Told, at: number): Facts {
   const [cut, part] = [given.cuts[at] as Row, given.parts[at]];
   const made = part?.['answer'] as unknown as Answer | undefined;

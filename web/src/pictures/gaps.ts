@@ -2,7 +2,7 @@ import type {Row} from '../json';
 import {number, withUnit} from '../words';
 import {column, type Chart, type Gaps, type Picture} from '../picture';
 
-/** Of an end that is cut square: what stays open at its two edges. */
+/** Returns, for an end that is cut square, the remaining gaps at its two edges. */
 export function gapsOf(points: Row): Gaps | undefined {
   if (!points['gap_outer_mm']) return undefined;
   const [inner, outer] = [column(points['gap_inner_mm']), column(points['gap_outer_mm'])];
@@ -32,7 +32,7 @@ export function gapChart(points: Row, shared: Pick<Chart, 'link' | 'partners' | 
   };
 }
 
-/** What a laser shop asks of an end. */
+/** Returns the figures that a laser shop needs for an end. */
 export function gapFigures(result: Row): Picture['figures'] {
   const laser = result['tube_laser'] as Row;
   const greatest = (name: string) => number(Number((laser[name] as Row)['greatest_mm']), 'mm');

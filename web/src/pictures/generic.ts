@@ -24,7 +24,7 @@ function walk(row: Row, path: string, picture: Picture): void {
   }
 }
 
-/** A list of rows; numbers alone may come from JSON with as many digits as they like. */
+/** Returns a list of rows; only numbers may come from JSON with any number of digits. */
 export function table(key: string, rows: Row[]): Table {
   const names = [...new Set(rows.flatMap((row) => Object.keys(row)))].filter((name) => rows.some((row) => !isRow(row[name])));
   return {

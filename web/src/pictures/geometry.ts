@@ -31,7 +31,10 @@ function axisByAngles(row: Row): {point: Vector; direction: Vector} {
   };
 }
 
-/** What a cutter looks like, drawn as long as `half` either way of the point nearest to `near`. */
+/**
+ * Returns the shape of a cutter, of length `half` in both directions from the point nearest to
+ * `near`.
+ */
 export function partner(row: Row, tone: number, near: Vector, reach: number, sizes: Sizes): Partner {
   if (row['kind'] === 'plane') return {kind: 'plane', point: nearestOnPlane(row, near), normal: unitVector(vector(row['normal'])), half: reach * 0.7, tone};
   const given = isRow(row['axis']) ? {point: vector(row['axis']['point_mm']), direction: unitVector(vector(row['axis']['direction']))} : axisByAngles(row);
@@ -96,7 +99,7 @@ export function squareEnd(z: number): EndCurve {
 
 const turnedInto = (to: Frame, v: Vector): Vector => [dot(v, to.x), dot(v, to.y), dot(v, to.z)];
 
-/** What is given in the coordinates that `to` is given in, seen from `to`. */
+/** Transforms a partner, given in the coordinates of `to`, into the frame `to`. */
 export function seenFrom(to: Frame | undefined, given: Partner): Partner {
   if (!to) return given;
   const point = turnedInto(to, add(given.point, to.origin, -1));

@@ -7,7 +7,7 @@ import {without, type Context} from './context';
 import {bounds, partner, tube} from './geometry';
 import {axesBefore, axesOf, coneTool, sectionOf, type Curves} from './mill';
 
-const round = 180; // sections of the picture, whatever number was asked for
+const round = 180; // sections of the picture, for any requested number
 
 export async function groove(_: Row, answer: Answer, context: Context): Promise<Picture> {
   const {request, result} = answer;
@@ -178,7 +178,7 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
   };
 }
 
-/** The places that were asked for, and the deepest ones. */
+/** Returns the requested points, and the deepest ones. */
 function probed(probe: Json | undefined): Table[] {
   if (!isRow(probe)) return [];
   const keys = ['omega_deg', 'ruling_deg', 'v', 'distance_before_mm', 'distance_mm'];

@@ -29,7 +29,10 @@ const known: Record<string, Draw> = {
 /** The pictures of an endpoint; one that this console does not know yet is shown as figures, tables and columns. */
 const drawing = (endpoint: string): Draw => known[endpoint] ?? generic;
 
-/** An answer that cannot be drawn is an answer all the same: why not is returned, to be said beside it. */
+/**
+ * Returns the picture of an answer, or the reason why it cannot be drawn, to show next to the
+ * answer.
+ */
 export async function pictured(endpoint: string, body: Row, answer: Answer, context: Context): Promise<Picture | Error> {
   try {
     return await drawing(endpoint)(body, answer, context);

@@ -45,7 +45,10 @@ export function axesOf(positions: Row): Axes[] {
   return column(positions['c_deg']).map((c, i) => ({c, x: x[i] as number, z: z[i] as number, b: b[i] as number}));
 }
 
-/** Where the axes stood before the correction: holding the tip, X and Z had followed so that B turns about it. */
+/**
+ * Returns the axes before the correction: because the tip is held, X and Z had moved so that B
+ * turns about it.
+ */
 export function axesBefore(positions: Row, request: Row): Axes[] {
   const [dz, db] = [column(positions['dz_mm']), column(positions['db_deg'])];
   const pivot = Number((request['setup'] as Row)['pivot_length_mm'] ?? 0);

@@ -104,7 +104,7 @@ function partOf(request: Row, member: string): Row {
   return {members: request['members'] as Json, connect: request['connect'] as Json, member, ...cut};
 }
 
-/** Every member from end to end; of one that goes far beyond the node, what is near it. */
+/** Returns every member from end to end; if it extends far beyond the node, only the near part. */
 function assemblyOf(members: Row[], ends: Row[], sizes: Sizes): Assembly {
   const widest = Math.max(...members.map((member) => tube(member, sizes).outer));
   const joints = ends.filter((end) => rowsOf(end['cut_by']).length).map((end) => vector((end['frame'] as Row)['origin_mm']));

@@ -90,7 +90,10 @@ function solidOf(request: Row, result: Row, {outer, wall}: {outer: number; wall:
   };
 }
 
-/** The gaps of every cut on one scale, of a part that is cut square; an end that nothing is welded to has none. */
+/**
+ * Returns the gaps of every cut on one scale, for a part that is cut square; an end without a weld
+ * has no gaps.
+ */
 function laser(request: Row, ends: EndCurve[], holes: {fit: Row}[]) {
   if (!pressed(request)) return undefined;
   const fits = holes.map(({fit}) => ({inner: column(fit['root_mm']), outer: column(fit['face_mm'])}));

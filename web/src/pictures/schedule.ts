@@ -12,7 +12,8 @@ import {coneTool} from './mill';
 const link = 'motion';
 const tones = ['series-0', 'series-1', 'series-2', 'series-3', 'series-4', 'series-5'];
 const most = 3000; // points that a chart is drawn with; a schedule may have 400 000 periods
-const replayed = 100000; // periods up to which the torch's way is asked for: its answer is ten times as long
+// periods up to which the torch's path is requested, because its answer is ten times as long
+const replayed = 100000;
 const mean = 25; // periods over which the rounding of pulses averages out
 
 export async function schedule(body: Row, answer: Answer, context: Context): Promise<Picture> {
@@ -30,7 +31,7 @@ export async function schedule(body: Row, answer: Answer, context: Context): Pro
 
 export const machineOf = (machine: unknown, context: Context) => (isRow(machine) ? machine : context.machines.get(String(machine)));
 
-/** What is being cut, where the request tells: shown beside the pulses. */
+/** Returns the shape that is being cut, if the request contains it: shown next to the pulses. */
 async function source(body: Row, context: Context): Promise<Solid | undefined> {
   for (const [key, endpoint, draw] of [
     ['cut', 'bevel-tables', bevelTable],
@@ -49,14 +50,14 @@ async function source(body: Row, context: Context): Promise<Solid | undefined> {
 export interface Way {
   outer: number; // radii
   inner: number;
-  on: number; // where the speed is asked for
+  on: number; // surface of the speed
   phi: number[]; // degrees
   zOuter: number[];
   zInner: number[];
   b: number[];
 }
 
-/** What the pulses make of it, by the service's own replay. */
+/** Returns the path of the pulses, by the service's own replay. */
 export async function wayOf(body: Row, answer: Answer, context: Context): Promise<Way | undefined> {
   const {request, result} = answer;
   const [cut, contour] = [request['cut'], request['contour']];
@@ -79,7 +80,7 @@ export async function wayOf(body: Row, answer: Answer, context: Context): Promis
   return {outer, inner, on, phi: column(path['phi_deg']), zOuter: at(outer), zInner: at(inner), b};
 }
 
-/** Diameter, wall and the surface of the root of what is cut. */
+/** Returns diameter, wall and the root's surface of the target. */
 async function targetOf(cut: Row, context: Context): Promise<Row> {
   const {outer, wall} = await joint(cut, context);
   return {outer_diameter_mm: outer, wall_mm: wall, surface: cut['root_surface'] ?? 'inner'};
@@ -99,7 +100,9 @@ function timesOf(result: Row): Times {
   return {every, period: Number(result['period_us']) * 1e-6, periods: Array.from({length: Math.ceil(total / step)}, (_, i) => i * step)};
 }
 
-/** The least and the greatest of each stretch, as they follow each other: nothing that peaks is lost. */
+/**
+ * Returns the minimum and the maximum of each interval, in their order, so that no peak is lost.
+ */
 function extremes(values: number[], {every, periods}: Times): number[] {
   if (every === 1) return values;
   return periods.map((from, i) => {
@@ -118,7 +121,7 @@ export function scheduleCharts(answer: Answer, machine: Row | undefined, way: Wa
   const {period, periods} = times;
   const axes = Object.keys(counts);
   const segments = rowsOf(result['segments']);
-  // A part's events are too many to be written beside each other: its rapids and strokes are bands.
+  // A part's events are too many for labels, so its rapids and strokes are bands.
   const marks = segments.length ? [] : rowsOf(result['events']).map((e) => ({x: Number(e['period']) * period, tone: 'mark', text: choice(e['what'])}));
   const bands = segments
     .filter((s) => s['kind'] === 'rapid' || s['kind'] === 'mark')
@@ -149,7 +152,10 @@ export function scheduleCharts(answer: Answer, machine: Row | undefined, way: Wa
   return [...charts, {...shared, id: 'positions', title: 'Pulses since the start', series: each((pulses) => summed(pulses, periods)), height: 150}];
 }
 
-/** The cut without a plan: the most that any segment asks for, of those that a stretch of time holds. */
+/**
+ * Returns the cut without a plan: the maximum that any segment requires, of the segments in an
+ * interval of time.
+ */
 function beforeChart(
   shared: Omit<Chart, 'id' | 'title' | 'series' | 'height'>,
   naive: Row,
@@ -231,7 +237,7 @@ function perUnit(machine: Row, axis: string): number {
   return Number(given['pulses_per_unit'] ?? Number(given['pulses_per_turn']) / 360);
 }
 
-/** Pulses per period as speed in per cent of what the axis may do. */
+/** Returns pulses per period as speed in per cent of the axis' limit. */
 const shares = (pulses: number[], machine: Row, axis: string, period: number) =>
   pulses.map((count) => (100 * Math.abs(count)) / perUnit(machine, axis) / period / Number(axisOf(machine, axis)['v_max']));
 
@@ -244,7 +250,7 @@ const playedOf = (result: Row, {every, period, periods}: Times): Played => ({
   })),
 });
 
-/** What moves along: the torch, or the mill by its axes. */
+/** Returns the moving tool: the torch, or the mill by its axes. */
 function toolOf({request, result}: Answer, machine: Row | undefined, way: Way | undefined, {periods}: Times): {tool?: Tool} {
   if (way) {
     const on = (radius: number, z: number[]) => periods.map((i) => onTube(radius, way.phi[i + 1] as number, z[i + 1] as number));
@@ -264,7 +270,10 @@ function toolOf({request, result}: Answer, machine: Row | undefined, way: Way | 
   };
 }
 
-/** A tube cut along the first turn of the torch's way, where no request says what else there is; of less than a turn there is none. */
+/**
+ * Returns a tube cut along the first turn of the torch's path, if no request contains more;
+ * undefined for less than a turn.
+ */
 function contourSolid(way: Way, result: Row): Solid | undefined {
   const begin = Number(rowsOf(result['events']).find((e) => e['what'] === 'cut_start')?.['period'] ?? 0);
   const start = way.phi[begin] as number;
@@ -338,7 +347,10 @@ const eventsOf = (result: Row, period: number): Table => ({
   rows: rowsOf(result['events']).map((e) => [String(e['period']), number(Number(e['period']) * period, 's'), choice(e['what'])]),
 });
 
-/** What a part's program does, one behind the other: each cut or stroke with the rapid and the pierce before it. */
+/**
+ * Returns the steps of a part's program: each cut or stroke with the rapid and the pierce before
+ * it.
+ */
 function cutsOf(result: Row, period: number): Table {
   const seconds = (segment: Row | undefined) => (segment ? number((Number(segment['to']) - Number(segment['from'])) * period, 's') : '–');
   const segments = rowsOf(result['segments']);

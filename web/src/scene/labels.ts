@@ -11,7 +11,10 @@ interface Label {
 }
 type Box = [number, number, number, number];
 
-/** Members' names in the picture, none over another: what is chosen first, then from near to far; and a dot where two are joined. */
+/**
+ * Members' names in the picture without overlaps: the selection first, then from near to far; and a
+ * dot at each joint.
+ */
 export class Labels {
   private readonly root = layer('labels');
   private readonly places = layer('dots');
@@ -36,7 +39,7 @@ export class Labels {
   place(members: Members, camera: Camera, width: number, height: number, chosen: Set<number>, pointed: Set<number>, item: number | null): void {
     const all = [...this.labels.keys()].filter((i) => this.labels.length <= most || chosen.has(i) || pointed.has(i));
     const seen = new Map(all.map((i) => [i, members.place(i, camera.position).project(camera)]));
-    const lifted = (i: number) => chosen.has(i) || pointed.has(i); // above what is looked at
+    const lifted = (i: number) => chosen.has(i) || pointed.has(i); // above the highlighted ones
     const depth = (i: number) => (seen.get(i) as Vector3).z;
     const laid = (rank: (i: number) => number, lift: (i: number) => boolean, dots: {x: number; y: number}[]) => {
       const boxes = new Map<number, Box>();
@@ -57,7 +60,8 @@ export class Labels {
       }
       return boxes;
     };
-    // Dots stay as they are at rest, whatever is chosen; what is lifted keeps off them, so that a click is on what was pointed at.
+    // Dots stay at their places with any selection; highlighted names avoid them, so that a click
+    // hits its target.
     const rest = laid(depth, () => false, []);
     this.dot(members, camera, [width, height], [...rest.values()], (of) => this.labels.length <= most || of.some((i) => chosen.has(i) || pointed.has(i)), item);
     const shown = all.some(lifted) ? laid((i) => (chosen.has(i) ? -2 : pointed.has(i) ? -1 : depth(i)), lifted, this.seen) : rest;
@@ -70,7 +74,7 @@ export class Labels {
     this.taken = [...shown.values()];
   }
 
-  /** A dot is where no name is and nothing else hides what is joined. */
+  /** A dot is drawn if no name is there and nothing else hides its joint. */
   private dot(members: Members, camera: Camera, [width, height]: [number, number], rest: Box[], wanted: (of: number[]) => boolean, item: number | null): void {
     this.seen = [];
     for (const {node, joint} of this.dots) {
@@ -98,7 +102,7 @@ export class Labels {
   }
 }
 
-/** Names and dots are for the eye: the lists beside the picture tell the same. */
+/** Names and dots are only visual: the lists next to the picture have the same content. */
 function layer(name: string): HTMLElement {
   const node = Object.assign(document.createElement('div'), {className: name});
   node.setAttribute('aria-hidden', 'true');

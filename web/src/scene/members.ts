@@ -67,7 +67,7 @@ export class Members extends Group {
     this.add(mesh);
   }
 
-  /** What is chosen stands out, what is pointed at a little less. */
+  /** Highlights the selection, and the hovered items a little less. */
   light(chosen: Set<number>, pointed: Set<number>): void {
     const {members} = this.assembly;
     const accent = new Color(colour('chosen'));
@@ -87,7 +87,10 @@ export class Members extends Group {
     return new Set(item === null ? [] : this.assembly.lights[item]);
   }
 
-  /** Where a member's name stands: at its middle, or where else no other is before it. */
+  /**
+   * Returns the position of a member's name: at its middle, or another point that no other member
+   * hides.
+   */
   place(i: number, eye: Vector3): Vector3 {
     const {start, end} = this.axes[i] as Axis;
     const places = [0.5, 0.35, 0.65, 0.2, 0.8, 0.08, 0.92].map((share) => start.clone().lerp(end, share));

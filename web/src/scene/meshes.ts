@@ -436,7 +436,9 @@ export class Beam extends LineSegments {
     this.aim(around(tube.inner, phi, chosen.zInner[i] as number), around(tube.outer, phi, chosen.zOuter[i] as number), tube.outer, tube.frame);
   }
 
-  /** Along the wall from its inner edge to its outer one, and beyond by the `size` of what is cut. */
+  /**
+   * Along the wall from its inner edge to its outer one, and beyond by the `size` of the target.
+   */
   aim(inner: Vector, outer: Vector, size: number, frame?: Frame): void {
     const [a, b] = [toVector(inner), toVector(outer)];
     const out = b.clone().sub(a).normalize();

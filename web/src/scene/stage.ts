@@ -21,8 +21,9 @@ import {Labels} from './labels';
 import {Members} from './members';
 import {Beam, Cone, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from './meshes';
 
-// Pixels drawn for one of the page, each way. Without a graphics card one takes 30 ms and four take 90: what changes is
-// drawn coarse, and once more fine when nothing changed for a moment.
+// Drawn pixels per page pixel, in each direction. Without a graphics card one takes 30 ms and four
+// take 90, so a changing picture is drawn coarse, and once more fine when nothing has changed for a
+// moment.
 const coarse = 1,
   fine = 2;
 const settled = 250; // ms
@@ -85,7 +86,10 @@ export class Stage {
     return controls;
   }
 
-  /** What is drawn of another `job` is seen as a fresh page shows it; of the same one, from where it was turned to. */
+  /**
+   * If the picture belongs to another `job`, the view is a fresh one; if to the same, it keeps its
+   * rotation.
+   */
   show(solid: Solid, before: boolean, label: string, job: number): void {
     this.solid = solid;
     this.before = before;
@@ -142,7 +146,7 @@ export class Stage {
     this.turned = false;
     const {centre, size, eye = [1, -1, 0.7], up = [0, 0, 1]} = this.solid;
     this.camera.up.set(...up);
-    // The controls take what is up when they are made.
+    // The controls read the upward direction when they are made.
     this.controls.dispose();
     this.controls = this.control();
     this.controls.target.set(...centre);
@@ -161,7 +165,7 @@ export class Stage {
     return (size / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect)) * 0.72;
   }
 
-  /** At the next frame, however often asked. */
+  /** Draws at the next frame, once for any number of calls. */
   draw(): void {
     if (this.waiting) return;
     this.waiting = true;
@@ -237,7 +241,7 @@ export class Stage {
     return this.members?.under(this.ray(event), touch * pixel) ?? null;
   }
 
-  /** A click that turned nothing chooses a member, or none. */
+  /** If a click turned nothing, it selects a member, or clears the selection. */
   private choose(event: MouseEvent): void {
     const from = this.pressed;
     if (!this.members || !this.solid || (from && Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > still)) return;
@@ -252,7 +256,7 @@ export class Stage {
       return;
     }
     const tube = this.solid?.tubes[0];
-    if (this.solid?.tool) return; // its places are in time, which no place of the cut tells
+    if (this.solid?.tool) return; // its points are in time, which no point of the cut shows
     if (!tube || !this.solid || this.solid.tubes.length !== 1 || event.buttons !== 0) return;
     const ray = this.ray(event);
     const walls: Object3D[] = [];
@@ -297,7 +301,7 @@ function nearest(phi: number[], angle: number): number {
   return best;
 }
 
-/** Frees what the graphics card holds of a group; its materials are kept for the next. */
+/** Frees a group's memory on the graphics card; keeps its materials for the next. */
 function release(group: Group): void {
   group.traverse((node) => {
     const {geometry} = node as Mesh as {geometry?: BufferGeometry};

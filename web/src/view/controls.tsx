@@ -59,12 +59,12 @@ export function TabBar({offered, chosen, choose, label = 'Details', panel = 'pan
   );
 }
 
-/** A colour of the style sheet beside what it stands for. */
+/** A colour of the style sheet next to its meaning. */
 export const Swatch = ({tone}: {tone: string}) => <span class="swatch" style={{background: `var(--${tone})`}} />;
 /** Partners keep their colour in every view. */
 export const partnerTone = (index: number) => `partner-${index % 6}`;
 
-/** Where the cursor of a link stands. */
+/** Returns the position of a link's cursor. */
 export function useCursor(link: string): number | null {
   const [at, move] = useState(() => pointed(link));
   useLayoutEffect(() => {
@@ -74,7 +74,7 @@ export function useCursor(link: string): number | null {
   return at;
 }
 
-/** A button that copies, and says whether it did. */
+/** A button that copies, and reports whether it did. */
 export function Copier({name, text}: {name: string; text(): string}) {
   const [said, say] = useState(name);
   const copy = async () => {

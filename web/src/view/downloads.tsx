@@ -37,14 +37,14 @@ function fileName(name: string, body: Row, view: string | undefined, hash: strin
   return parts.join('-').replace(/[\\/:*?"<>|\s]+/g, '_');
 }
 
-/** What of the options goes with a format; `apart` are those of its own drawings. */
+/** Returns the options for a format; `apart` are those of its own drawings. */
 function queryOf({options}: Format, view: string | undefined, given: Values): URLSearchParams {
   const query = new URLSearchParams(view ? {view} : {});
   const files = options.some(({name}) => name === 'files') && given['files']?.split(',');
   for (const {name} of options) {
     const value = given[name];
     const apart = /^(mirror|paper)$/.test(name) && view !== 'template'; // drawings of other views refuse it
-    // What else a packet reads is its programs'.
+    // A packet's other options are its programs'.
     if (value && !apart && (!files || name === 'files' || files.includes('gcode'))) query.set(name, value);
   }
   return query;
@@ -65,7 +65,9 @@ async function received(reply: Response, tell: (share: number) => void): Promise
   return new Blob(pieces, {type: reply.headers.get('Content-Type') ?? ''});
 }
 
-/** What an option begins with. A speed has no default; one to begin with spares a refusal. */
+/**
+ * Returns the initial value of an option. A speed has no default; an initial one spares a refusal.
+ */
 const beginning = ({name, schema}: Option): string => (schema.items ? ((schema.default ?? []) as string[]).join(',') : name === 'speed_mm_min' ? '600' : '');
 
 interface Asked {
@@ -127,7 +129,10 @@ function OptionField(asked: Asked) {
   );
 }
 
-/** A button for every format that the contract offers here, and a field for what a format asks. The file is what the service answers. */
+/**
+ * A button for every format that the contract offers here, and a field for each of its options. The
+ * file is the service's answer.
+ */
 export function Downloads({endpoint, name, body, formats}: {endpoint: string; name: string; body: Row; formats: Format[]}) {
   const options = [...new Map(formats.flatMap((format) => format.options).map((option) => [option.name, option])).values()];
   const [given, give] = useState<Values>(() => Object.fromEntries(options.map((option) => [option.name, beginning(option)])));
@@ -138,7 +143,7 @@ export function Downloads({endpoint, name, body, formats}: {endpoint: string; na
     const [title, ending] = known(media);
     const query = queryOf(format, view, given);
     say('');
-    come(null); // not to be told while it is computed
+    come(null); // not reported while it is computed
     const reply = await fetch(`${path(endpoint)}${query.size ? `?${query}` : ''}`, {
       method: 'POST',
       body: JSON.stringify(body),

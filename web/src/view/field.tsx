@@ -11,7 +11,7 @@ import {Combo as Search} from './combo';
 export const Fields = createContext<Form | null>(null);
 export const useForm = () => useContext(Fields) as Form;
 
-/** One value of the request, where it stands. */
+/** One value of the request, in place. */
 export interface Value {
   schema: Schema;
   value: Json | undefined;
@@ -32,7 +32,7 @@ export function short(form: Form, schema: Schema): boolean {
   return schema.type === 'array' && item !== undefined && !item.properties && !item.oneOf && (schema.maxItems ?? 99) <= inlineList;
 }
 
-/** What is said against the value of a pointer. */
+/** Complaints about the value of a pointer. */
 export function Complaints({at: pointer}: {at: string}) {
   const {complaints} = useForm();
   const own = useComputed(() => complaints.value.get(pointer)).value;
@@ -47,7 +47,7 @@ export function Complaints({at: pointer}: {at: string}) {
   ) : null;
 }
 
-/** Which complaints an element has: told to those who do not see them. Bound to it, so that nothing is drawn anew. */
+/** Links an element to its complaints for screen readers, without drawing anything anew. */
 export function useTold(pointer: string) {
   const {complaints} = useForm();
   const ids = useComputed(() =>
@@ -59,7 +59,7 @@ export function useTold(pointer: string) {
   return {'aria-describedby': ids, 'aria-invalid': useComputed(() => (ids.value ? 'true' : undefined))};
 }
 
-/** A field with its name, its unit and what is said against it. */
+/** A field with its name, its unit and its complaints. */
 export function Field({schema, value, pointer, required = false}: Value & {required?: boolean}) {
   const form = useForm();
   const mark = unit(lastKey(pointer));
@@ -80,7 +80,7 @@ export function Field({schema, value, pointer, required = false}: Value & {requi
   );
 }
 
-/** What a value is entered in, by what it may be. */
+/** Returns the input for a value, by its type. */
 export function Input(given: Value & {name: string}) {
   const {schema, value, pointer, name} = given;
   const form = useForm();
@@ -101,7 +101,7 @@ export function Input(given: Value & {name: string}) {
   return <Text {...given} shared={shared} />;
 }
 
-/** What counts where nothing is entered. */
+/** Returns the value that applies if nothing is entered. */
 function useDefault({schema, pointer}: Value) {
   const form = useForm();
   return useComputed(() => {

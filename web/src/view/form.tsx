@@ -131,7 +131,7 @@ function Members({schema, value, pointer}: Value & {value: Row}) {
     else if (!form.contract.fixed(member.schema)) absent.push(<Offer key={key} schema={member.schema} pointer={member.pointer} />);
   }
   const parts = [small.length > 0 && <div class="grid">{small}</div>, large];
-  // Tubes first: they are what people change.
+  // Tubes first, because people change them most.
   if (pointer === '') parts.reverse();
   return (
     <>
@@ -184,7 +184,9 @@ function Group({schema, value, pointer, required}: Value & {required: boolean}) 
   );
 }
 
-/** Whether a value has no field of its own, so that what is said against it stands at its heading. */
+/**
+ * Returns whether a value has no field of its own, so that its complaints appear at its heading.
+ */
 function headed({contract}: Form, schema: Schema, value: Json | undefined): boolean {
   if (value === undefined || schema.properties) return true;
   const item = contract.resolve(schema.items ?? {});

@@ -2,7 +2,7 @@ import {signal} from '@preact/signals';
 import frame from '../../../docs/frame.svg';
 import {lastKey} from '../words';
 
-// The four drawings of docs/frame.svg: which of them shows what a field means, by its name.
+// The four drawings of docs/frame.svg, and the names of the fields that each explains.
 const drawings: [RegExp, string][] = [
   [/^(clocking_deg|offset_mm|phi_deg|start_phi_deg|from_phi_deg|to_phi_deg|seam_deg|datum|up)$/, '500,0,500,440'],
   [/^(inclination_deg|height_mm)$/, '0,440,500,440'],
@@ -22,7 +22,7 @@ export const followFocus = {
   },
 };
 
-/** What the focused field means, under the form: its hint, and the drawing that shows it. */
+/** Explains the focused field under the form: its hint, and its drawing. */
 export function Hint() {
   const field = focused.value;
   const told = field?.closest<HTMLElement>('[title]')?.title ?? '';

@@ -15,8 +15,9 @@ interface Ways {
   chose(item: number | null): void;
 }
 
-/** Lists beside a picture: what is chosen in one of them or in the solid is told in full, and leads to what belongs to it. `item` is chosen where
- *  nothing is yet. */
+/** Lists next to a picture: an item selected in one of them or in the solid is shown in full, and
+ * leads to related ones. `item` is selected by default.
+ */
 export function Inspector({given, item, ways}: {given: Inspected; item: number | null; ways: Ways}) {
   const {link, lists} = given;
   const kept = chosen(link);

@@ -50,13 +50,13 @@ async function opened(file: File, schedules: string[]): Promise<Opened> {
   }
 }
 
-/** A model that is opened: its button, also a place to drop it, and what is said of it beside the form. */
+/** An opened model: its button, also a place to drop it, and its messages next to the form. */
 export function useModel({schedules, job, body, shown, take}: Given) {
   const [model, say] = useState<Opened | undefined>();
   const [found, find] = useState<Imported | {failure: unknown} | undefined>();
   const [button, input] = [useRef<HTMLButtonElement>(null), useRef<HTMLInputElement>(null)];
   const answers = useRef<Answers>({});
-  const turn = useRef(0); // of a file or an answer; what comes late is dropped
+  const turn = useRef(0); // of a file or an answer; late ones are dropped
   const given = useRef<Row | undefined>(undefined);
 
   const read = async ({read: of}: Opened) => {
@@ -91,7 +91,7 @@ export function useModel({schedules, job, body, shown, take}: Given) {
     button.current?.focus();
   };
 
-  // Another job has begun: what was said of a file is said no more.
+  // Another job has begun, so messages about a file disappear.
   useLayoutEffect(() => {
     if (body !== given.current) end();
   }, [job]);

@@ -68,7 +68,7 @@ function Figure({chart, plots, attempt}: {chart: Chart; plots: Set<Plot>; attemp
   );
 }
 
-/** The title, and what lines and colours stand for. */
+/** The title, and the legend of lines and colours. */
 function Caption({chart}: {chart: Chart}) {
   const {title, unit, series, bands = [], marks = []} = chart;
   const others = new Map([...bands, ...(lettered(chart) ? [] : marks)].map(({text, tone}) => [text, tone]));

@@ -6,7 +6,10 @@ import {Sheet, Table} from './tables';
 const active = 0.98; // of a limit that may be used up: the answer rests on it
 const near = 0.5; // of one that may not
 
-/** How a check stands to its limit: one that may be used up is active at it, a residual is near a failure. */
+/**
+ * Returns the state of a check relative to its limit: a limit that may be used up is active at it,
+ * a residual is near a failure.
+ */
 function standing(check: Check, kind: 'checks' | 'limits'): {tone: string; text: string; share: number} {
   const whole = check.limit > 0 ? check.value / check.limit : check.value > 0 ? Infinity : 0;
   const share = Math.min(1, Math.max(0, whole));
@@ -35,7 +38,7 @@ function Measured({check}: {check: Check}) {
 
 const proven = 'Residuals computed from the answer by other formulas than those that made it, and the limits that it keeps.';
 
-/** What was measured against what is allowed, as a share of the limit. */
+/** Measured against permitted values, as a fraction of the limit. */
 export function Proof({answer: {job, verification}}: {answer: Answer}) {
   const hash = (name: 'input_sha256' | 'result_sha256') => [{text: label(name), about: about(name)}, `${job[name].slice(0, 12)} …`];
   return (
@@ -54,7 +57,7 @@ const most = 1000; // rows that are shown
 const textual = (key: string, value: Json | undefined) =>
   typeof value === 'number' ? shown(key, value) : typeof value === 'boolean' ? (value ? 'yes' : 'no') : choice(value ?? '');
 
-/** What has columns of points in an answer: its title, the columns, the name they stand under. */
+/** Returns the parts of an answer with columns of points: title, columns, name. */
 function curvesOf(row: Row, name = ''): [string, Row, string][] {
   return Object.entries(row).flatMap(([key, value]) => {
     const each: [string, Json][] = Array.isArray(value) && isRow(value[0]) ? value.map((v, i) => [`${label(key)} ${i + 1}`, v]) : [[label(key), value]];

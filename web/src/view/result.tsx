@@ -16,7 +16,7 @@ import {Solid} from './solid';
 import {Figures, Table} from './tables';
 import {Silence, Verdict} from './verdict';
 
-/** The answer: its verdict, its pictures, and what is told in full under them. */
+/** The answer: its verdict, its pictures, and the details under them. */
 export function Result() {
   const console = useConsole();
   const {lost, reply, said, trouble, answer} = console;
@@ -103,7 +103,7 @@ function Pictures() {
   );
 }
 
-/** What is told in full under the pictures. */
+/** The details under the pictures. */
 function Details() {
   const console = useConsole();
   const offered = console.details;

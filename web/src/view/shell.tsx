@@ -10,7 +10,7 @@ import {Page, useConsole} from './page';
 import {Result} from './result';
 import {ThemeButton} from './theme';
 
-/** What stands round every page: `console` when the service has told what it computes. */
+/** The frame of every page: `console` once the service has sent its endpoints. */
 export function Shell({console, children}: {console?: Console | undefined; children?: ComponentChildren}) {
   return (
     <Page.Provider value={console ?? null}>
@@ -144,7 +144,7 @@ function Choices({children}: {children: ComponentChildren}) {
   const console = useConsole();
   const [endpoint, example] = [console.endpoint.value, console.example.value];
   const shown = console.formShown.value;
-  console.changes.value; // of the body, which says whether the preset is pressed
+  console.changes.value; // of the body, which determines whether the preset is pressed
   return (
     <div class="pick">
       <button
@@ -180,7 +180,7 @@ function Choices({children}: {children: ComponentChildren}) {
           console.formShown.value = !shown;
         }}
       >
-        {/* On a phone the picture comes first, and the form when it is asked for. */}
+        {/* On a phone the picture comes first, and the form on demand. */}
         {shown ? 'Back to the picture' : 'Change the job'}
       </button>
     </div>

@@ -16,7 +16,7 @@ interface Given {
   failed(failure: unknown): void;
 }
 
-/** The solid, what is switched in it, and what the cursor reads. */
+/** The solid, its switches, and the cursor's values. */
 export function Solid(given: Given) {
   const {picture, view, partners, change} = given;
   const solid = picture?.solid;
@@ -71,7 +71,10 @@ export function Solid(given: Given) {
   );
 }
 
-/** The stage draws what is given; its code is large and comes when it is first needed. Why there is none, where there is none. */
+/**
+ * Draws the picture on the stage, whose code is large and loads at its first use. Returns the
+ * reason if it cannot.
+ */
 function useStage(canvas: {current: HTMLElement | null}, {picture, title, job, view, partners, failed}: Given) {
   const stage = useRef<Promise<Stage | null> | undefined>(undefined);
   const latest = useRef(picture);
@@ -101,7 +104,7 @@ function useStage(canvas: {current: HTMLElement | null}, {picture, title, job, v
   return [stage, none] as const;
 }
 
-/** The values under the cursor. Its rows stand there before, so that nothing moves. */
+/** The values under the cursor. Its rows exist from the start, so that nothing moves. */
 function Readout({picture}: {picture: Picture}) {
   const links = [...new Set(picture.charts.map((chart) => chart.link))];
   const first = links[0] ?? '';

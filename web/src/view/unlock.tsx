@@ -1,7 +1,7 @@
 import {useState} from 'preact/hooks';
 import {give, keyed} from '../key';
 
-/** Asks for the key where an answer would stand, then goes on. */
+/** Requests the key in place of an answer, then continues. */
 export function Unlock({go}: {go(): void}) {
   const [title, say] = useState(keyed() ? 'The service does not know this key.' : 'This service asks for a key.');
   const [text, type] = useState('');

@@ -12,7 +12,7 @@ interface Given {
   reply: Partial<Reply>;
   focus: Focus;
   again(): void;
-  /** What is known of the cut. */
+  /** Facts about the cut. */
   facts?: string;
 }
 /** Verdict, reasons and failed checks, or the problem: in plain sight above the pictures. */
@@ -76,7 +76,7 @@ function Refusal({problem, focus}: {problem: Problem; focus: Focus}) {
   );
 }
 
-/** What the verdict comes to, before what is known of the cut. */
+/** Sentence of the verdict, before the facts about the cut. */
 const meanings = {
   made: {ok: 'Cuttable.', review: 'Look before you cut.', reject: 'Not to be cut.'},
   known: {ok: 'Sound.', review: 'Look at this first.', reject: 'Not to be used.'},
@@ -92,7 +92,7 @@ function Approval({answer, milliseconds, focus, facts}: {answer: Answer; millise
   const named = new Set<string>(answer.warnings.map((w) => w.code));
   const unnamed = reasons.filter((reason) => !named.has(reason));
   const warnings = answer.warnings.filter((warning) => warning.severity === 'cut');
-  // A note makes no verdict: it is there for who asks.
+  // A note does not affect the verdict: it is shown on demand.
   const notes = answer.warnings.filter((warning) => warning.severity === 'note');
   const told = (given: Warning[]) => given.map((warning, i) => <Told key={i} warning={warning} focus={focus} />);
   return (

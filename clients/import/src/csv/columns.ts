@@ -1,7 +1,10 @@
 import type {LengthUnit} from '../units.js';
 import {unitNamed} from './numbers.js';
 
-/** What a member's row states, by the names of the request's fields; of points the axes one by one, or two nodes. */
+/**
+ * Fields of a member's row, by the names of the request's; for points the axes one by one, or two
+ * nodes.
+ */
 export const fields = [
   'id',
   'start_x',
@@ -89,12 +92,12 @@ function match<F extends string>(row: string[], known: Record<F, string[]>): Par
   return out;
 }
 
-/** Coordinates are matched before nodes, so that "start" and "end" alone are nodes. */
+/** Coordinates are matched before nodes, so that only "start" and "end" are nodes. */
 export const membersIn = (row: string[]): Partial<Record<Field, string>> => match(row, headings);
 export const nodesIn = (row: string[]): Partial<Record<NodeField, string>> => match(row, nodeHeadings);
 
 const has = (columns: Partial<Record<string, string>>, ...names: string[]): boolean => names.every((name) => columns[name] !== undefined);
-/** Rows of numbers are no headings: they are most rows, so this is asked first. */
+/** Rows of numbers are not headings; because they are most rows, this is checked first. */
 const wordy = (row: string[]): boolean => row.length > 1 && row.slice(0, widest).filter((cell) => /^[^\d.,+-]/.test(cell)).length > 1;
 export const isMembers = (row: string[]): boolean => {
   if (!wordy(row)) return false;

@@ -12,11 +12,14 @@ export {type Field, fields} from './columns.js';
 export interface CsvMapping extends FrameOptions {
   /** Which column, by its heading, states a field. Without an entry it is found by the usual headings. */
   columns?: Partial<Record<Field, string>>;
-  /** Of lengths whose column states none; mm without it. */
+  /** Of lengths whose column states no unit; default mm. */
   unit?: LengthUnit;
   /** Of all rows, where no column states it. */
   size?: Size;
-  /** A second text, with the table of nodes that members name. It may also stand in the same text. */
+  /**
+   * A second text, with the table of nodes that members name. It may also be part of the first
+   * text.
+   */
   nodes?: string;
   /** The mark of decimals, if the numbers leave it open ("1,234"). */
   decimal?: Mark;
@@ -29,7 +32,7 @@ class Missing extends Error {
   }
 }
 
-/** The columns as they would be read without a mapping: what a mapper begins with. */
+/** Returns the columns as read without a mapping: the start for a mapper. */
 export function columnsOf(text: string): {headings: string[]; columns: Partial<Record<Field, string>>; nodes: boolean} {
   const rows = rowsOf(text);
   const {headings, columns} = membersTable(rows);
@@ -157,7 +160,7 @@ function readRows(reading: Reading, found: Found): void {
   }
 }
 
-/** What must be known before the numbers mean anything. */
+/** Returns the options that are needed before the numbers have a meaning. */
 function asked(reading: Omit<Reading, 'mark'> & {mark: Mark | undefined}, found: Found): void {
   const {table, nodes, mapping, mark} = reading;
   const count = table.rows.length;
@@ -177,7 +180,7 @@ function asked(reading: Omit<Reading, 'mark'> & {mark: Mark | undefined}, found:
     ask('unit', stated, `some columns are in ${stated.join(' and ')}, and others state no unit: state --unit ${stated[0]} or --unit mm`);
 }
 
-/** Tubes of less than 5 mm are none that the service takes: then the numbers are not mm. */
+/** If tubes have less than 5 mm, the service does not accept them, so the numbers are not mm. */
 function tooThin({members, asks}: Found, mapping: CsvMapping, table: Table<Field>): boolean {
   const outers = members.flatMap((member) => ('size' in member ? [] : [member.outer_diameter_mm]));
   const unstated =

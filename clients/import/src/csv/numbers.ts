@@ -43,7 +43,9 @@ export type Mark = '.' | ',';
 const thousands = /^[-+]?\d{1,3}(?:[.,]\d{3}){1,8}$/;
 const withComma = /^[-+]?\d{0,40},\d{1,40}(?:[eE][-+]?\d{1,4})?$/;
 
-/** Which mark the numbers of a table have. "1,234" alone does not show it: undefined. */
+/**
+ * Returns the decimal mark of a table's numbers; undefined if, like "1,234", they do not show it.
+ */
 export function markOf(cells: string[]): Mark | undefined {
   let [comma, point, unclear] = [false, false, false];
   for (const cell of cells) {
@@ -64,7 +66,7 @@ function fraction(text: string): number {
   return over === undefined || Number(under) === 0 ? Number.NaN : Number(whole ?? 0) + Number(over) / Number(under);
 }
 
-/** A number as the table writes it; NaN if it is none. */
+/** Returns a number as the table writes it; NaN if it is not a number. */
 export function numberSaid(text: string, mark: Mark): number {
   if (mark === '.') return decimal(/^[-+]?\d{1,3}(?:,\d{3}){1,8}(?:\.\d*)?$/.test(text) && text.includes('.') ? text.replace(/,/g, '') : text);
   return text.includes(',') || thousands.test(text) ? decimal(text.replace(/\./g, '').replace(',', '.')) : decimal(text);

@@ -10,7 +10,7 @@ export interface Row {
   number: number; // in the file, from 1
 }
 
-/** One table of a text: what its columns are, and its rows. */
+/** One table of a text: the meaning of its columns, and its rows. */
 export interface Table<F extends string> {
   headings: string[];
   columns: Partial<Record<F, string>>;
@@ -22,7 +22,10 @@ const filled = ({cells}: Row): boolean => cells.some((cell) => cell !== '');
 const spaced = (line: string): string[] => (line.trim().split(/ {2,}/).length > 2 ? line.trim().split(/ {2,}/) : line.trim().split(/\s+/));
 const isHeading = (row: string[]): boolean => isMembers(row) || isNodes(row);
 
-/** What parts the columns: what makes a heading of one of the first lines; undefined if none does. */
+/**
+ * Returns the column separator: the one that makes one of the first lines a heading; undefined if
+ * no separator does.
+ */
 function separatorOf(lines: string[]): string | undefined {
   const first = lines
     .filter((line) => line.trim() !== '')
@@ -60,7 +63,10 @@ function table<F extends string>(rows: Row[], top: number, columns: Partial<Reco
   return {headings, columns, units, rows: told ? below.slice(1) : below};
 }
 
-/** The members' table: the first with such headings, or with those that a mapping names, else what begins the text. */
+/**
+ * Returns the members' table: the first with such headings, or with those that a mapping names,
+ * else the start of the text.
+ */
 export function membersTable(rows: Row[], given: Partial<Record<Field, string>> = {}): Table<Field> {
   const named = Object.values(given);
   const byName = named.length > 0 ? rows.findIndex(({cells}) => named.every((each) => cells.includes(each.trim()))) : -1;
@@ -74,7 +80,10 @@ export function nodeTables(rows: Row[]): Table<NodeField>[] {
   return rows.flatMap(({cells}, i) => (isNodes(cells) ? [table<NodeField>(rows, i, nodesIn(cells), isMembers)] : []));
 }
 
-/** What a row has in the column of a field; undefined if it is empty or there is no such column. */
+/**
+ * Returns the cell of a row in the column of a field; undefined if it is empty or there is no such
+ * column.
+ */
 export function cellsOf<F extends string>({headings, columns}: Table<F>): (row: Row, field: F) => string | undefined {
   const at = new Map<F, number>(Object.entries(columns).map(([field, heading]) => [field as F, headings.indexOf((heading as string).trim())]));
   return ({cells}, field) => cells[at.get(field) ?? -1] || undefined;

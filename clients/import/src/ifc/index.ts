@@ -17,7 +17,10 @@ export interface IfcOptions extends FrameOptions {
   wasm?: string;
 }
 
-/** Tubes by what they are for, and fittings, of which only bends are read. IFC 2x3 knows pipes as flow segments. */
+/**
+ * Tubes by their use, and fittings, of which only bends are read. IFC 2x3 has pipes as flow
+ * segments.
+ */
 const segments = /^Ifc(Beam|Column|Member|PipeSegment|FlowSegment)(StandardCase)?$/;
 const fittings = /^Ifc(Pipe|Flow)Fitting$/;
 
@@ -166,7 +169,10 @@ class File {
     });
   }
 
-  /** Members of an analysis model; those that stand for products which are imported are there already. */
+  /**
+   * Reads members of an analysis model, except those that represent imported products, because
+   * these exist already.
+   */
   structure(): void {
     const ids = this.model.all(this.library.IFCSTRUCTURALCURVEMEMBER);
     if (ids.length === 0) return;

@@ -19,7 +19,7 @@ const reference = 5; // web-ifc's mark of a value that is another entity's numbe
 
 export const told = (line: Line): string => `#${line.id} ${line.type}`;
 
-/** An open file. Whoever asks for what is not there hears of it by a Trouble. */
+/** An open file. If an item does not exist, its methods throw a Trouble. */
 export class Model {
   private readonly lines = new Map<number, Line>();
 

@@ -1,6 +1,9 @@
 import {limits} from '../limits.js';
 
-/** Attributes that the schema derives from others, and that stand as "*" in a file: web-ifc skips these, and only these. */
+/**
+ * Attributes that the schema derives from others, and that are "*" in a file: web-ifc skips these,
+ * and only these.
+ */
 const derived: Record<string, [from: number, to: number]> = {
   IFCSIUNIT: [0, 0],
   IFCORIENTEDEDGE: [0, 1],
@@ -17,8 +20,9 @@ export interface Normalised {
 }
 
 /**
- * A copy in which "*" stands for derived attributes, and "$" for all others that are not stated, as the schema has it: web-ifc drops
- * a "*", so that one in another place would shift the attributes after it. One pass, whatever the file is.
+ * Returns a copy in which "*" marks derived attributes, and "$" all other missing ones, as the
+ * schema requires: web-ifc drops a "*", so one in another place would shift the attributes after
+ * it. One pass over any file.
  */
 export function normalised(given: Uint8Array): Normalised {
   const bytes = given.slice();
@@ -58,7 +62,7 @@ function endOfComment(bytes: Uint8Array, from: number): number {
   return bytes.length;
 }
 
-/** At most 15 digits: what is longer is no number of an entity. */
+/** At most 15 digits, because longer ones are not entity numbers. */
 function numberAt(bytes: Uint8Array, from: number): number {
   let value = 0;
   for (let i = from; i < from + 15; ++i) {

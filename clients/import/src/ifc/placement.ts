@@ -50,7 +50,9 @@ export const maybeAxes = (model: Model, line: Line, name: string): Matrix => {
   return found ? axes(model, found) : identity;
 };
 
-/** Where a product lies in the world: its placement in that of what it belongs to, and so on. */
+/**
+ * Returns the position of a product in the world: its placement in that of its parent, and so on.
+ */
 export function inWorld(model: Model, placement: Line): Matrix {
   let out = identity;
   const seen = new Set<number>();

@@ -145,7 +145,7 @@ function derivedFrom(context: Context, profile: Line, depth: number): Section {
   const scale = length(move.x);
   if (Math.abs(length(move.y) - scale) > 1e-9 * scale) throw new Trouble(`${told(profile)} is scaled differently in its directions`);
   const place = after(move, parent.place);
-  // A tube's section is its own mirror image: what stays is where its middle lies and how it is turned.
+  // A tube's section is its own mirror image, so only its centre and rotation matter.
   const x = unit(place.x) as Vector;
   const own = {x, y: cross([0, 0, 1], x), z: identity.z, origin: placed(move, parent.place.origin)};
   if (parent.kind === 'ring') return {kind: 'ring', outer: parent.outer * scale, wall: parent.wall * scale, place: own};

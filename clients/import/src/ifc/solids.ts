@@ -6,7 +6,7 @@ import {type Line, told, Trouble} from './model.js';
 import {type Section, sectionOf} from './profiles.js';
 import {axes, direction, maybeAxes, operator, point, scaleOf} from './placement.js';
 
-/** What a body is made of, in the world and in the file's unit. `corner`: mitred to the tube before it. */
+/** A body's shape, in the world and in the file's unit. `corner`: mitred to the tube before it. */
 export type Body =
   | {kind: 'tube'; from: Vector; to: Vector; outer: number; wall: number; corner?: boolean}
   | {kind: 'box'; from: Vector; to: Vector; width: number; height: number; corner_radius: number; up: Vector}
@@ -14,8 +14,11 @@ export type Body =
 
 export interface Reading extends Context {
   notes: NotUnderstood[];
-  corner: number | undefined; // of rectangular tubes that tell none, in the file's unit
-  /** Bodies that may still be looked at: of the whole file, so that none nests them without end. */
+  corner: number | undefined; // of rectangular tubes without their own value, in the file's unit
+  /**
+   * Number of bodies that may still be read in the whole file, so that no file can nest them
+   * without end.
+   */
   budget: {steps: number};
   depth?: number;
 }
@@ -100,7 +103,7 @@ function mapped(reading: Reading, item: Line, world: Matrix): Body[] {
   return bodies(reading, model.list(model.of(source, 'MappedRepresentation'), 'Items'), place);
 }
 
-/** The tube is imported whole; what is cut from it is listed. A cut in a cut in a cut is followed without recursion. */
+/** Imports the tube whole and lists its cuts. Follows a cut in a cut in a cut without recursion. */
 function cut(reading: Reading, solid: Line, world: Matrix): Body[] {
   const {model} = reading;
   let at = solid;

@@ -6,7 +6,7 @@ import {inWorld, point} from './placement.js';
 import {type Section, sectionOf} from './profiles.js';
 import {type Body, prism, type Reading} from './solids.js';
 
-/** Entities by what they are related to: of structural members, profiles and products. */
+/** Entities by their relations: of structural members, profiles and products. */
 export interface Relations {
   profiles: Map<number, Line[]>;
   products: Map<number, number[]>;
@@ -20,7 +20,7 @@ interface Codes {
   IFCRELCONNECTSWITHECCENTRICITY: number;
 }
 
-/** Relations that can be read; a broken one tells of its members that they have no profile. */
+/** Returns the readable relations; if one is broken, its members have no profile. */
 export function relations(model: Model, codes: Codes): Relations {
   const out: Relations = {profiles: new Map(), products: new Map(), eccentric: new Set()};
   const each = (code: number, read: (line: Line) => void): void => {
@@ -85,7 +85,7 @@ function vertex(model: Model, line: Line): Vector {
   return point(model, model.of(line, 'VertexGeometry'));
 }
 
-/** The straight line of an edge; oriented edges as what they name. */
+/** Returns the straight line of an edge; for oriented edges, that of the named one. */
 function edge(context: Context, given: Line): Piece[] {
   const {model} = context;
   let line = given;
@@ -146,7 +146,10 @@ export function structural(reading: Reading, member: Line, {profiles, eccentric}
   return prism(reading, section, after(place, identity), distance(from, to), own[0]);
 }
 
-/** The profile's y: across the edge, as the member's Axis (its local z) is; a round tube needs none. */
+/**
+ * Returns the profile's y: across the edge, like the member's Axis (its local z); not used for a
+ * round tube.
+ */
 function upOf(model: Model, member: Line, z: Vector): Vector {
   const axis = model.maybe(member, 'Axis');
   const ratios = axis && model.vector(axis, 'DirectionRatios');

@@ -36,7 +36,7 @@ function inSi(model: Model, unit: Line, name: string, depth = 0): {factor: numbe
   return {factor: factor * model.positive(measure, 'ValueComponent'), power};
 }
 
-/** The project's unit of a kind; none where it has none. */
+/** Returns the project's unit of a kind; undefined if it has no such unit. */
 function unitOf(model: Model, project: Line, kind: string): Line | undefined {
   const assignment = model.maybe(project, 'UnitsInContext');
   if (!assignment) return undefined;
@@ -51,7 +51,7 @@ export function millimetres(model: Model, project: Line): number {
   return exact(factor * Number(`1e${power + 3}`));
 }
 
-/** How many rad its unit of angle is; none where it has none. */
+/** Returns its unit of angle in rad; undefined if it has no such unit. */
 export function radians(model: Model, project: Line): number | undefined {
   const unit = unitOf(model, project, 'PLANEANGLEUNIT');
   if (!unit) return undefined;

@@ -6,7 +6,7 @@ import {type Component, pointIn, Trouble, type Units} from './text.js';
 /** mm: points of a file that are one, with the rounding of two programs. */
 const touch = 0.5;
 
-/** Of points in one place: whether there are none, one or more is all that is asked. */
+/** Of points at one position: only 0, 1 or more matter. */
 const crowd = 16;
 
 type End = {member: Member; end: 'start' | 'finish'; at: Vector; to: Vector};
@@ -39,7 +39,7 @@ const points = /^(END|BRANCH\d*)-POINT$/;
 const fitting =
   /^(TEE|CROSS|REDUCER|VALVE|FLANGE|LAPJOINT|CAP|COUPLING|UNION|PLUG|INSTRUMENT|FILTER|TRAP|MISC-COMPONENT|MULTIPORT|GASKET|ELBOW|BEND|ELBOLET|OLET|SAFETY)(-|$)/;
 const elbows = /^(ELBOW|BEND)$/;
-/** Branches on a header: with a body between, or with none. */
+/** Branches on a header: with a body between, or without. */
 const onHeader = /^(OLET|TEE-SET-ON|TEE-STUB|CROSS-SET-ON|CROSS-STUB)$/;
 
 interface Branch {
@@ -59,7 +59,7 @@ function beside(member: Member, p: Vector): {off: number; along: number} {
   return {off: distance(p, add(member.start_mm, times(run, along))), along};
 }
 
-/** Where pipes meet other things: to be asked when all pipes are known. */
+/** Connections of pipes with other things: use after all pipes are known. */
 export class Fittings {
   private readonly ends = new Places<End>();
   private readonly others = new Places<Component>();
@@ -116,7 +116,7 @@ export class Fittings {
     if (pipes.some((each) => each.length > 1) && !elbows.test(component.type)) throw new Trouble('more than one pipe ends at one of its points');
   }
 
-  /** TAP-CONNECTION stands among the attributes of a pipe; its point follows it. */
+  /** TAP-CONNECTION is among the attributes of a pipe; its point follows it. */
   taps(component: Component): void {
     component.attributes.forEach((each, i) => {
       if (each.name !== 'TAP-CONNECTION') return;
@@ -133,7 +133,10 @@ export class Fittings {
     });
   }
 
-  /** A branch fitting: what is set on the header is cut by it and has a hole; an olet's body stands between, so its pipe ends square. */
+  /**
+   * A branch fitting: if a pipe is set on the header, it is cut by it and the header has a hole; an
+   * olet's body lies between, so its pipe ends square.
+   */
   onHeader(component: Component, name: string): void {
     const {line, type} = component;
     const [centre, outlet] = [/^CENTRE-POINT$/, /^BRANCH\d*-POINT$/].map((each) => component.attributes.find((one) => each.test(one.name)));

@@ -58,7 +58,7 @@ function every(text: string, found: Found, options: PcfOptions): void {
     counts.set(kind, (counts.get(kind) ?? 0) + 1);
     return id(`${kind} ${counts.get(kind)}`, '');
   };
-  // What has no point tells of the file.
+  // Components without a point describe the file.
   const placed = all.filter(({type, attributes}) => !silent.test(type) && (tubes.test(type) || attributes.some(({name}) => somewhere.test(name))));
   const reading: Reading = {units, sizes: new Sizes(all, units, options, tubes), found, pipeOf: new Map()};
   const trying = ({line, type}: Component, read: () => void): void => {
@@ -76,7 +76,7 @@ function every(text: string, found: Found, options: PcfOptions): void {
     elbowNames.set(component, name);
     trying(component, () => (pipes.test(component.type) ? pipe : elbow)(component, name, reading));
   }
-  // Then what the pipes meet.
+  // Then the bodies that the pipes meet.
   const fittings = new Fittings(found, placed, units, reading.pipeOf, options.within_mm ?? nearby);
   for (const component of placed) {
     if (elbows.test(component.type)) trying(component, () => fittings.planes(component, `${elbowNames.get(component)} end`));

@@ -9,11 +9,14 @@ export interface SizeOptions {
   schedule?: string;
   /** The attribute that states a pipe's wall; WALL-THICKNESS without it. */
   wallAttribute?: string;
-  /** What a bore of the file means, by its number: {'152.4': 'NPS 6'}; also 'DN 150', '168.3' (outside diameter in mm), '168.3x7.11'. */
+  /**
+   * Meaning of a bore of the file, by its number: {'152.4': 'NPS 6'}; also 'DN 150', '168.3'
+   * (outside diameter in mm), '168.3x7.11'.
+   */
   bores?: Record<string, string>;
 }
 
-/** The sizes of one file, and what it leaves open. */
+/** The sizes of one file, and its open questions. */
 export class Sizes {
   private readonly counts = new Map<number, number>();
   private readonly map: Map<number, Bore>;

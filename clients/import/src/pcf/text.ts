@@ -45,7 +45,7 @@ export function components(text: string): Component[] {
 
 const known = (units: Record<string, unknown>): string => Object.keys(units).join(', ');
 
-/** What a file must state before its numbers mean anything. */
+/** Returns the units that a file must state before its numbers have a meaning. */
 export function unitsOf(all: Component[]): Units {
   const said = (name: string) => all.find(({type}) => type === name)?.attributes[0]?.words[0]?.toUpperCase();
   const [coordinates, bore] = [said('UNITS-CO-ORDS'), said('UNITS-BORE')];

@@ -1,4 +1,5 @@
-// Files that are cut, doubled, exchanged and garbled at random, by a seed: each gives a frame that is one, or none, and a list that says why.
+// Files that are cut, doubled, exchanged and garbled at random, by a seed: each gives a valid
+// frame, or no frame, and a list with the reasons.
 import assert from 'node:assert/strict';
 import {readdirSync, readFileSync} from 'node:fs';
 import {fromCsv, fromDxf, fromIfc, fromPcf, layersOf} from '../../dist/index.js';
@@ -42,7 +43,7 @@ function mutant(next, text, other) {
 
 const isPoint = (p) => Array.isArray(p) && p.length === 3 && p.every(Number.isFinite);
 
-/** What holds of every import. */
+/** Properties of every import. */
 export function sound({frame, notUnderstood, asks, sources}, told) {
   for (const {id, type, reason} of notUnderstood)
     for (const each of [id, type, reason]) assert.ok(typeof each === 'string' && !/[\u0000-\u001f\u007f-\u009f\u2028\u2029]/.test(each) && each.length <= 600, told);
@@ -80,7 +81,7 @@ const read = {
   },
 };
 
-/** Case `number` of a seed: its kind, and what was found. */
+/** Case `number` of a seed: its kind, and the result. */
 export async function fuzz(seed, number) {
   const next = random(seed * 1000003 + number);
   const small = () => ({

@@ -23,7 +23,7 @@ const digits = '1'.repeat(1000000);
 const pcf = (body) => `UNITS-BORE INCH\nUNITS-CO-ORDS MM\n${body}`;
 const heads = 'id,x1,y1,z1,x2,y2,z2,od,wall\n';
 
-/** Name, kind, the file, and what its list must state. */
+/** Name, kind, the file, and the expected text of its list. */
 export const hostile = [
   ['mapped items nested ten thousand deep', 'ifc', () => ifc(({step, solid, beam}) => {
     let item = solid();

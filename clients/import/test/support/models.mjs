@@ -15,7 +15,7 @@ function random(seed) {
 const rigid = (next, reach) => product(shift(...[0, 1, 2].map(() => (next() - 0.5) * reach)), rotation(2, 360 * next()), rotation(0, 360 * next()), rotation(1, 360 * next()));
 
 const sizes = [[114.3, 6.3], [60.3, 3.91], [219.1, 12.5], [48.3, 2.6], [88.9, 5]];
-// As a user would have written it: the shortest decimal number that is so many mm.
+// Returns the shortest decimal number in the unit that equals `mm`, as a user would write it.
 const inUnit = (mm, unit) => Number((mm / unitsInMm[unit]).toPrecision(14));
 
 function circle(step, radius, wall, place) {

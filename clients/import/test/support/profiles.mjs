@@ -1,4 +1,5 @@
-// IFC files drawn at random: profiles with voids, derived ones, structural members, "*" for what is left out, names and GUIDs.
+// IFC files drawn at random: profiles with voids, derived ones, structural members, "*" for omitted
+// values, names and GUIDs.
 import {between, pick, random} from './random.mjs';
 import {moved, product, rotation, shift, Step} from './step.mjs';
 

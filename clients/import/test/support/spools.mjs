@@ -1,4 +1,5 @@
-// PCF files drawn at random, each with what must come of it. Sizes are typed in here from ASME B36.10M, not taken from the import.
+// PCF files drawn at random, each with its expected result. Sizes are copied here from ASME
+// B36.10M, not taken from the import.
 import {between, pick, random} from './random.mjs';
 
 /** NPS in inches: DN, outside diameter in mm, how NPS is written. */
@@ -21,14 +22,15 @@ const plus = (p, d, k) => p.map((v, i) => v + k * d[i]);
 export function spool(seed) {
   const next = random(seed);
   const way = conventions[seed % conventions.length];
-  // The outside diameters of NPS 3, 16 and 30 in inches are nominal sizes themselves: nothing is to be asked. DN 6 may be 6 in: it is.
+  // The outside diameters of NPS 3, 16 and 30 in inches are nominal sizes themselves: no question
+  // is expected. DN 6 may be 6 in: a question is expected.
   const [unit, perUnit, digits] = pick(next, [['MM', 1, 4], ['MM', 1, 1], ['MM-HUNDREDTH', 0.01, 2], ['INCH', 25.4, 6]]);
   const inches = Number(pick(next, Object.keys(sizes).filter((n) => !(way.unit === 'INCH' && way.outside && ['3', '16', '30'].includes(n)) && !(way === conventions[2] && n === '0.125'))));
   const [, outer, nps] = sizes[inches];
   const wall = Math.round(outer * between(next, 0.04, 0.12) * 100) / 100;
   const lines = [pick(next, ['ISOGEN-FILES ISOGEN.FLS', 'PIPELINE-REFERENCE A']), `UNITS-BORE ${way.unit}`, `UNITS-CO-ORDS ${unit}`];
   const bore = (n = inches) => String(Number(way.of(n).toFixed(5)));
-  // What a file can say: the point that its digits give, in mm.
+  // Returns the point that a file's digits can express, in mm.
   const rounded = (p) => p.map((v) => Number((v / perUnit).toFixed(digits)) * perUnit);
   const point = (name, p, n) => `    ${name} ${p.map((v) => (v / perUnit).toFixed(digits)).join(' ')} ${bore(n)}${pick(next, ['', ' BW', 'BW'])}`;
   const members = [], planes = [], free = [], branches = [], listed = [];

@@ -1,4 +1,5 @@
-// ISO 10303-21 written by hand, line by line, and the axes that it stands for by plain 4x4 matrices: nothing of it is the reader's.
+// ISO 10303-21 written by hand, line by line, and its axes by plain 4x4 matrices, without any code
+// of the reader.
 
 /** Products of rows of numbers; a point is [x, y, z, 1]. */
 export const multiply = (a, b) => a.map((row) => b[0].map((_, j) => row.reduce((sum, value, k) => sum + value * b[k][j], 0)));

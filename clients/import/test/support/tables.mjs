@@ -1,4 +1,5 @@
-// Tables of members drawn at random, as programs and people write them, each with what must come of it.
+// Tables of members drawn at random, as programs and people write them, each with its expected
+// result.
 import {between, pick, random} from './random.mjs';
 
 const mm = {mm: 1, cm: 10, m: 1000, in: 25.4, ft: 304.8};
@@ -17,7 +18,7 @@ export function table(seed) {
   const next = random(seed + 5000);
   const unit = pick(next, Object.keys(mm));
   const thin = pick(next, ['mm', 'in', 'm', unit]); // of diameters and walls
-  const stated = next() < 0.6; // units stand in the headings
+  const stated = next() < 0.6; // units are in the headings
   const own = stated ? thin : unit;
   const comma = next() < 0.4;
   const mark = comma ? pick(next, [';', '\t', '|']) : pick(next, [',', ';', '\t', '|', ' ']);
@@ -62,7 +63,7 @@ export function table(seed) {
   ];
   const all = [{heading: pick(next, ['id', 'Name', 'member', 'Mark']), of: ({id}) => id}, ...columns.sort(() => next() - 0.5)];
   const rule = mark === '|' ? [`|${all.map(() => '---').join('|')}|`] : [];
-  // Words of one space only: a table with spaces for a mark has none in a heading.
+  // Words of one space only: a table with spaces as marks has no space in a heading.
   const spaced = (cell) => (mark === ' ' ? cell.replace(/ /g, '_') : cell);
   const member = (list = all) => [joined(list.map(({heading}) => spaced(heading))), ...rule, ...rows.map((row) => joined(list.map(({of}) => of(row))))];
   const nodes = [

@@ -1,6 +1,6 @@
 #pragma once
-// What other headers of Open CASCADE 7.6 name of a class that Debian 12's package leaves out;
-// triangulations alone would call it, and nothing here has any.
+// Declares a class of Open CASCADE 7.6 that other headers name but Debian 12's package omits; only
+// triangulations would call it, and nothing here has any.
 template <int Align = 16>
 class NCollection_AliasedArray {
  public:
