@@ -159,8 +159,7 @@ struct Table {
 /// Returns the partners grown by coating and (smallest) root gap, or to their seat.
 [[nodiscard]] Result<std::vector<joint::Cutter>> grown_partners(const TableSpec& spec);
 
-/// Returns the finished surface by its rows: inner edge, the land's, outer edge. Views of the
-/// table.
+/// Returns views of the finished surface's rows: inner edge, the land's, outer edge.
 [[nodiscard]] CutWall finished_wall(const TableSpec& spec, const Table& table);
 
 /// Returns true if `table` keeps `penetration` below `penetration_limit`.
