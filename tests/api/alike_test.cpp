@@ -313,7 +313,7 @@ TEST(Alike, ATrussThatIsTurnedInPlanAndRoundedKeepsItsFourParts) {
   EXPECT_EQ(groups_of(answer).size(), 4U);
 }
 
-TEST(Alike, TrussesHaveFourPartsHoweverTheyStand) {
+TEST(Alike, TrussesHaveFourPartsInAnyOrientation) {
   Random random;
   Real worst = 0;
   for (int i = 0; i < 20; ++i) {

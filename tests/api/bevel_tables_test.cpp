@@ -34,7 +34,7 @@ TEST(BevelTables, EchoAnglesAsTheyWereSent) {
   }
 }
 
-TEST(BevelTables, Table1GivesWhatTheTheoryLists) {
+TEST(BevelTables, Table1EqualsTheListOfTheTheory) {
   const auto answer = post(kPath, table_1());
   ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 2000);
   const auto& result = at(answer.body, "result");

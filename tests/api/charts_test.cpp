@@ -110,7 +110,7 @@ std::pair<std::vector<double>, std::vector<double>> curve(int kind, std::size_t 
   return {x, y};
 }
 
-TEST(Charts, DrawWhatAllPointsWouldToAPixel) {
+TEST(Charts, EqualTheDrawingOfAllPointsToAPixel) {
   std::mt19937 random(7);
   for (int kind = 0; kind < 4; ++kind)
     for (const std::size_t n : {2U, 50U, 900U, 5'000U, 120'000U}) {

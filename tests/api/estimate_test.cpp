@@ -58,7 +58,7 @@ double estimate(const std::string& endpoint, const Json& body) {
   return dry.outcome.error ? 0.0 : number(dry.body, "estimate/cpu_s");
 }
 
-TEST(Estimate, ComesWithValidateOnlyAlone) {
+TEST(Estimate, ComesOnlyWithValidateOnly) {
   for (const auto& endpoint : api::endpoints())
     for (const auto& example : api::examples()) {
       if (example.endpoint != endpoint.id || example.name.find('/') != std::string::npos) continue;
@@ -125,7 +125,7 @@ std::vector<Growth> growths() {
   };
 }
 
-TEST(Estimate, GrowsWithWhatIsAskedFor) {
+TEST(Estimate, GrowsWithTheRequest) {
   for (const auto& one : growths()) {
     const std::string file = one.example;
     const auto endpoint = file.substr(0, file.find('/'));

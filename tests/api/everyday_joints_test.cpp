@@ -342,7 +342,7 @@ std::string refusal_of(const Case& c, const Posted& answer) {
   return code;
 }
 
-TEST(EverydayJoints, NoneIsRefusedThatCanBeCut) {
+TEST(EverydayJoints, OnlyImpossibleJointsAreRefused) {
   struct Kind {
     Case (*make)(Random&);
     int count;

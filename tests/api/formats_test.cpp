@@ -170,7 +170,7 @@ TEST(Formats, LabelsAreSpreadAndKeepTheirOrder) {
   EXPECT_EQ(at_the_edge, (std::vector<double>{0.0, 3.0}));
 }
 
-TEST(Formats, APdfSpellsWhatItsFontsHaveNot) {
+TEST(Formats, APdfSpellsLettersThatItsFontsLack) {
   api::Canvas sheet(50.0, 20.0);
   sheet.text({1.0, 1.0}, "(30\u00b0) \u0159");
   const auto pdf = api::print_pdf({sheet}, "a", {});
@@ -182,7 +182,7 @@ TEST(Formats, APdfSpellsWhatItsFontsHaveNot) {
 
 /// Between two looks at the budget lies one line of a drawing, not its pages: a template of 20 000
 /// points on A4 took 0.2 s to lay and print.
-TEST(Formats, DrawingsEndWhereTheyAreTo) {
+TEST(Formats, DrawingsEndAtTheirLimits) {
   std::stop_source over;
   over.request_stop();
   const auto stop = over.get_token();
@@ -199,7 +199,7 @@ TEST(Formats, DrawingsEndWhereTheyAreTo) {
 }
 
 /// A cancelled job draws no more: a work order of 20 000 points took 42 ms to lay out.
-TEST(Formats, NothingIsDrawnForAJobThatIsOver) {
+TEST(Formats, ACancelledJobDrawsNothing) {
   std::stop_source over;
   api::Canvas sheet(500.0, 500.0, over.get_token());
   sheet.line({0.0, 0.0}, {400.0, 400.0});
@@ -229,7 +229,7 @@ TEST(Formats, ATextEndsWhileItMoves) {
 }
 
 /// Columns of a million numbers are copied into a CSV: 37 ms.
-TEST(Formats, ACsvEndsWhileItTakesColumns) {
+TEST(Formats, ACsvCanBeCancelledBetweenColumns) {
   std::stop_source over;
   api::Caption caption{};
   caption.stop = over.get_token();

@@ -255,7 +255,7 @@ INSTANTIATE_TEST_SUITE_P(EveryKind, FrameJoint, ::testing::Values("set_on", "set
 class FrameFaces : public ::testing::TestWithParam<const char*> {};
 
 // Both faces are planes, parallel, at the distance of the gap, and tilt equally to both tubes.
-TEST_P(FrameFaces, LieTheGapApart) {
+TEST_P(FrameFaces, AreSeparatedByTheGap) {
   Random random;
   Real off = 0, lean = 0;
   int made = 0;

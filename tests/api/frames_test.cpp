@@ -78,7 +78,7 @@ TEST(Frames, EveryPartIsTheAnswerToItsOwnRequest) {
 }
 
 // An engine of another version has the same hash where it has the same numbers.
-TEST(Frames, ResultHoldsTheHashOfEveryPartAndNothingOfItsEngine) {
+TEST(Frames, ResultContainsTheHashOfEveryPartButNoEngine) {
   for (const auto& [name, request] : all_examples()) {
     const auto frame = asked(request);
     EXPECT_EQ(dump(at(frame.body, "result")).find("engine"), std::string::npos) << name;
@@ -137,7 +137,7 @@ Json moved(const Json& request, double deg, double dx) {
 }
 
 // A part is the same at any position of its frame, and has the same hash.
-TEST(Frames, PartsDoNotDependOnWhereTheFrameStands) {
+TEST(Frames, PartsDoNotDependOnTheFramesPosition) {
   const auto request = example("frames/truss-of-19.json");
   const auto here = asked(request);
   std::set<std::string> hashes;
@@ -230,7 +230,7 @@ TEST(Frames, BothSidesOfAJointAreOfOneStatement) {
   }
 }
 
-TEST(Frames, WhatIsNotCutIsTold) {
+TEST(Frames, UncutEndsAreListed) {
   const auto frame = asked(example("frames/pipe-spool.json"));
   std::set<std::string> told;
   for (const auto& one : list(frame.body, "result/not_cut"))
@@ -246,7 +246,7 @@ TEST(Frames, WhatIsNotCutIsTold) {
 }
 
 // If a part cannot be cut, it is named, with its request and the reason; the others are valid.
-TEST(Frames, AMemberThatCannotBeCutSpoilsNoOther) {
+TEST(Frames, AFailedMemberDoesNotAffectOthers) {
   auto request = example("frames/truss-of-19.json");
   request = with(request, "members/2/outer_diameter_mm", Json{120.0});
   request = with(request, "members/2/priority", Json{1.0});
@@ -263,7 +263,7 @@ TEST(Frames, AMemberThatCannotBeCutSpoilsNoOther) {
 
 // So nearly parallel that the axes meet beyond the range of a part: the part is refused, but the
 // verification does not fail.
-TEST(Frames, AJointTooFarAwayForAPartSpoilsNoProof) {
+TEST(Frames, AJointTooFarAwayDoesNotFailTheVerification) {
   const auto request = *api::parse(R"({"members": [
     {"id": "a", "start_mm": [-900.3564, -499.9965, 949.7226], "end_mm": [-900.0063, 500.308, 949.99715],
      "outer_diameter_mm": 45, "wall_mm": 2.5, "priority": 1},
@@ -313,7 +313,7 @@ const Json& request_of(const Json& frame, std::string_view part) {
 }
 
 // The values of an end override its joint and the defaults, only there.
-TEST(Frames, AnEndIsCutAsItSays) {
+TEST(Frames, AnEndsOwnFieldsOverrideItsJoint) {
   auto spool = example("frames/pipe-spool.json");
   const auto own = *api::parse(R"([
     {"member": "branch", "end": "start", "groove": {"rule": "none"}, "contact": "auto", "kerf_mm": 2.5},
@@ -358,7 +358,7 @@ TEST(Frames, EndsAreChecked) {
 }
 
 // Every end and hole of every part is cut square; a field that would tilt the head is refused.
-TEST(Frames, ATubeLaserTiltsNothing) {
+TEST(Frames, ATubeLaserNeverTilts) {
   const auto rack = example("frames/rack-by-tube-laser.json");
   const auto frame = asked(rack);
   std::size_t ends = 0;

@@ -194,7 +194,7 @@ TEST(InLine, PiecesAlikeBecomeOneMember) {
 }
 
 // Every order of ends: /v1/nodes, /v1/parts and /v1/frames see one joint.
-TEST(InLine, NodesAndPartsFindWhatFramesDo) {
+TEST(InLine, NodesAndPartsDetectTheSameJointsAsFrames) {
   Random random(3);
   for (int k = 0; k < 40; ++k) {
     auto line = random_line(random, false, false);
@@ -245,7 +245,7 @@ std::pair<Real, Real> contact(const Tube& branch, const Tube& run) {
   return out;
 }
 
-TEST(InLine, WhatEndsBeforeTheCutDoesNotCut) {
+TEST(InLine, AMemberThatEndsBeforeTheCutDoesNotCut) {
   Random random(7);
   int absent = 0, partly = 0, there = 0;
   for (int k = 0; k < kCases; ++k) {

@@ -227,7 +227,7 @@ TEST(FieldInputs, StatedJointWithoutItsPartnerIsForReview) {
   EXPECT_EQ(text(answer.body, "result/cut_list/0/verdict"), "review");
 }
 
-TEST(Frames, MemberOutOfRangeAloneHasNoPart) {
+TEST(Frames, OnlyTheMemberOutOfRangeHasNoPart) {
   for (const auto& [path, value] :
        {std::pair{"members/2/wall_mm", 0.2}, std::pair{"members/2/wall_mm", 60.0},
         std::pair{"members/2/outer_diameter_mm", 3.0}}) {

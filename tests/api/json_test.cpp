@@ -21,7 +21,7 @@ std::string cbor(std::string_view text) {
   return out.take();
 }
 
-TEST(Json, PrintsWhatItRead) {
+TEST(Json, PrintedTextReadsBackEqual) {
   for (const char* text :
        {"null", "true", "[1,2.5,-3e-07,\"a\\\"b\",{\"k\":[]}]", "{\"b\":1,\"a\":2}"}) {
     const auto json = parse(text);
@@ -61,7 +61,7 @@ TEST(Json, RefusesWithTheByteOffset) {
 
 // Memory for long containers is reserved before most of it is read, because growth by doubling
 // would move it as a whole, in a time that grows with it.
-TEST(Json, HasAPlaceForWhatIsLongBeforeItIsRead) {
+TEST(Json, ReservesLongContainersBeforeReading) {
   const auto repeated = [](std::string_view element, int count) {
     std::string out;
     for (int i = 0; i < count; ++i) out.append(i == 0 ? "" : ",").append(element);
@@ -90,7 +90,7 @@ TEST(Json, HasAPlaceForWhatIsLongBeforeItIsRead) {
   EXPECT_FALSE(parse("[" + repeated("7", 20000) + R"(,"a\)"));
 }
 
-TEST(Json, HasAPlaceForWhatIsLongAtEveryDepth) {
+TEST(Json, ReservesLongContainersAtEveryDepth) {
   constexpr int kDeep = 30, kBefore = 5000, kBehind = 3000;
   std::string before, behind, text;
   for (int i = 0; i < kBefore; ++i) before += "1,";
@@ -182,7 +182,7 @@ TEST(Json, LooksAtTheTokenWithinATextThatIsReadAhead) {
   }
 }
 
-TEST(Writer, AsksBetweenPartsOfWhatIsLong) {
+TEST(Writer, ChecksForAStopWithinLongValues) {
   for (const auto encoding : {Encoding::json, Encoding::cbor}) {
     std::stop_source source;
     Writer out(0, source.get_token(), encoding);
@@ -208,7 +208,7 @@ TEST(Writer, AsksBetweenPartsOfWhatIsLong) {
   EXPECT_THROW(static_cast<void>(out.take()), Stopped);
 }
 
-TEST(Writer, HashesWhatItWouldKeep) {
+TEST(Writer, HashEqualsThatOfTheWrittenText) {
   const auto write = [](Writer& out) {
     out.object([](Writer& w) {
       w.column("x", std::vector<double>(30'000, 0.1));
@@ -221,7 +221,7 @@ TEST(Writer, HashesWhatItWouldKeep) {
   EXPECT_EQ(hashes.sha256(), sha256(keeps.take()));
 }
 
-TEST(Writer, LeavesOutWhatIsUnseenAndHashesIt) {
+TEST(Writer, OmitsUnseenColumnsAndHashesThem) {
   struct Case {
     std::string seen;  // of a, b and c
     const char* text;

@@ -74,7 +74,7 @@ TEST(Nodes, KJointFromCentreLines) {
 }
 
 // C1 is 219.1 mm thick, B1's end 40 mm along it and 12 mm from its axis; within 50 mm both join.
-TEST(Nodes, AFreeEndIsSaidWhereAMemberIsNear) {
+TEST(Nodes, AFreeEndIsReportedIfAMemberIsNear) {
   const auto moved = [](double up) {
     return post(kNodes, with(example("nodes/k-joint-from-centre-lines.json"), "members/1/start_mm",
                              point(-40.0, 12.0, up)));
@@ -179,7 +179,7 @@ TEST(Nodes, TablesOfEveryEnd) {
   EXPECT_TRUE(proved);
 }
 
-TEST(Nodes, AnEndThatCannotBeCutAsAskedDoesNotSpoilTheOthers) {
+TEST(Nodes, FailedEndDoesNotAffectOthers) {
   const auto request =
       with(with_tables(node({member("C", point(-900, 0, 0), point(900, 0, 0), 120),
                              member("steep", point(0, 0, 0), point(0, 0, 900), 60),
@@ -225,7 +225,7 @@ TEST(Nodes, AnEndThatIsNotCutHasNoTable) {
   EXPECT_EQ(text(answer.body, "errors/0/pointer"), "/node/members/0/start_mm");
 }
 
-TEST(Nodes, AMitreAskedForIsAMitre) {
+TEST(Nodes, AStatedMitreIsAMitre) {
   const auto request = example("nodes/stated-mitre.json");
   const auto answer = post(kNodes, request);
   ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
@@ -241,7 +241,7 @@ TEST(Nodes, AMitreAskedForIsAMitre) {
   EXPECT_FALSE(warned(answer, "ghost_contact", "/members/1/start_mm"));
 }
 
-TEST(Nodes, MembersThatShareMetalAreSaidWithHowDeepAndWhere) {
+TEST(Nodes, OverlapsAreReportedWithDepthAndPosition) {
   auto request = node({member("C", point(-900, 0, 0), point(900, 0, 0), 168.3, 8),
                        member("B", point(0, 0, 0), point(600, 0, 600), 88.9),
                        member("again", point(0, 0, 0), point(600, 0, 600), 88.9)});

@@ -88,7 +88,7 @@ TEST(Partners, AnElbowCarriesALegAlongItsRun) {
   EXPECT_EQ(at(table.body, "verification/passed"), api::Json{true});
 }
 
-TEST(Partners, ARefusalForAxesThatRunAlongSaysWhatToDo) {
+TEST(Partners, ARefusalForParallelAxesHasAnAction) {
   const auto up = [](const char* z) { return *api::parse(std::string("[0, 0, ") + z + "]"); };
   const auto leg =
       *api::parse(read_project_file("tests/field/dummy-leg-on-elbow.intersection.json"));

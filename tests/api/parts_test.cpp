@@ -226,7 +226,7 @@ std::string refusal(const Json& request, std::string_view pointer) {
   return answer.outcome.body;
 }
 
-TEST(Parts, OneJointIsSaidInOneWay) {
+TEST(Parts, OneJointIsStatedInOneWay) {
   const auto c = chord();
   const Json same = *api::parse(R"({"kind": "set_in", "gap_mm": 1.5})");
   const Json other = *api::parse(R"({"kind": "set_in", "gap_mm": 2})");
@@ -366,7 +366,7 @@ TEST(Parts, AHoleBeyondAnEndIsRefusedAndOneOnItReviewed) {
 }
 
 // A wide branch along whose surface the wall's lines run together within a thick chord.
-TEST(Parts, AnEdgeThatCrossesItselfIsRefusedAtItsBranchAndLeavesAFramesOtherParts) {
+TEST(Parts, ASelfCrossingEdgeIsRefusedAtItsBranchOnly) {
   const auto refused = post(kPath, *api::parse(R"({
     "target": {"outer_diameter_mm": 180, "wall_mm": 20.7, "length_mm": 1400},
     "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
@@ -393,7 +393,7 @@ TEST(Parts, AnEdgeThatCrossesItselfIsRefusedAtItsBranchAndLeavesAFramesOtherPart
   EXPECT_EQ(text(frame.body, "result/cut_list/0/verdict"), "none");
 }
 
-TEST(Parts, WhatCannotBeCutNamesTheField) {
+TEST(Parts, ImpossibleCutsNameTheField) {
   const auto t = table_1();
   EXPECT_EQ(refusal(with(t, "target/length_mm", 80.0), "/target/length_mm"), "member_consumed");
   EXPECT_EQ(refusal(with(t, "ends/start/cutters/1/inclination_deg", 1e-6),

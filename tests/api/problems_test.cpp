@@ -147,7 +147,7 @@ TEST(Problems, NoLength) {
                  {"zero_length", "/cutters/4/normal"});
 }
 
-TEST(Problems, TorchRangeNamesWhereAndTheGap) {
+TEST(Problems, TorchRangeReportsPositionAndGap) {
   const auto answer = post(kBevel, with(table_1(), "torch/max_deg", 20.0));
   expect_problem(answer, {"torch_range", "/torch/max_deg"});
   EXPECT_EQ(number(answer.body, "errors/0/limit"), 20.0);
@@ -367,7 +367,7 @@ struct BadQuery {
   const char *query, *pointer, *code, *hint;
 };
 
-TEST(Query, WhatIsWrongIsNamedWithWhatIsAllowed) {
+TEST(Query, ErrorsNameTheValidValues) {
   const auto body = api::dump(table_1());
   constexpr BadQuery kBad[] = {
       {"format=gcode&speed_mm_min=600&dialect=fanuc", "?dialect", "bad_choice", "qtplasmac"},
@@ -392,7 +392,7 @@ TEST(Query, WhatIsWrongIsNamedWithWhatIsAllowed) {
   }
 }
 
-TEST(Query, AllThatIsWrongIsToldAtOnceAndEncodingIsUndone) {
+TEST(Query, AllErrorsAreReportedAtOnceWithoutEncoding) {
   const auto body = api::dump(table_1());
   const auto answer = post(kBevel, body, "torch=1&lead_mm=-1&colour=red");
   EXPECT_EQ(text(answer.body, "code"), "bad_request");
@@ -414,7 +414,7 @@ TEST(Warnings, EventsBetweenNodesOnABareGridOnly) {
   EXPECT_EQ(warnings(post(kBevel, exact)).count("events_between_nodes"), 0u);
 }
 
-TEST(Warnings, ARuleBeyondTheTorchAsksForReview) {
+TEST(Warnings, ARuleBeyondTheTorchRequiresReview) {
   auto request = with(with(table_1(), "contact", "none"), "torch/max_deg", 30.0);
   const auto answer = post(kBevel, request);
   EXPECT_EQ(warnings(answer).count("torch_range_binds"), 1u);
@@ -514,7 +514,7 @@ TEST(Envelope, DefaultsAreEchoed) {
   EXPECT_EQ(number(echo, "cutters/0/height_mm"), 0.0);
 }
 
-TEST(Envelope, EveryCodeSaysWhatToDo) {
+TEST(Envelope, EveryCodeHasAnAction) {
   for (const auto& error : all_errors()) {
     EXPECT_FALSE(error.meaning.empty()) << error.code;
     EXPECT_TRUE(error.action.ends_with('.')) << error.code;

@@ -14,7 +14,7 @@ const Renamings kPart{{"start/kerf", "kerf"},
                       {"start/", ""},
                       {"target", "members/0", false}};
 
-TEST(Renaming, TakesAStepWholeOrNotAtAll) {
+TEST(Renaming, MatchesOnlyWholeSteps) {
   EXPECT_EQ(renamed("start/cutters/1", kPart), "members/4");
   EXPECT_EQ(renamed("start/cutters/10", kPart), "members/7");
   EXPECT_EQ(renamed("start/cutters/1/outer_radius", kPart), "members/4");
@@ -24,7 +24,7 @@ TEST(Renaming, TakesAStepWholeOrNotAtAll) {
   EXPECT_EQ(renamed("start", kPart), "start");
 }
 
-TEST(Renaming, KeepsWhatStandsBelow) {
+TEST(Renaming, KeepsNestedFields) {
   EXPECT_EQ(renamed("start/kerf", kPart), "kerf");
   EXPECT_EQ(renamed("start/kerf/width", kPart), "kerf/width");
   EXPECT_EQ(renamed("start/kerf_pairs", kPart), "kerf_pairs");

@@ -44,7 +44,7 @@ double any(std::mt19937_64& draw) {
   }
 }
 
-TEST(Shortest, IsWhatTheLibraryPrints) {
+TEST(Shortest, EqualsTheLibrarysOutput) {
   std::mt19937_64 draw(18);
   for (int i = 0; i < 600'000; ++i) {
     const double value = any(draw);

@@ -39,7 +39,7 @@ TEST(Suspicion, FallsOnOtherUnits) {
       "members/0/end_mm: 5 looks like metres: 5000 mm between the ends\n");
 }
 
-TEST(Suspicion, SparesWhatIsPlausible) {
+TEST(Suspicion, IgnoresPlausibleValues) {
   for (
       const auto* text :
       {R"({"target":{"outer_diameter_mm":114.3,"wall_mm":6.3,"length_mm":400}})",
@@ -61,7 +61,7 @@ TEST(Suspicion, SparesWhatIsPlausible) {
 
 // Angles as people write them in radians, to any number of decimals, and angles that were computed,
 // which lie as near to a round one and have all their digits.
-TEST(Suspicion, TellsWhatIsWrittenFromWhatIsComputed) {
+TEST(Suspicion, DistinguishesTypedFromComputedNumbers) {
   std::mt19937_64 random{20261127};
   const auto angle = [](const std::string& digits) {
     return suspects(R"({"cutters":[{"clocking_deg":)" + digits + "}]}");
@@ -143,7 +143,7 @@ TEST(Suspicion, IsInTheAnswer) {
   }
 }
 
-TEST(Suspicion, HelpsWhereAValueIsOutOfRange) {
+TEST(Suspicion, SuggestsAUnitIfAValueIsOutOfRange) {
   EXPECT_EQ(other_unit_hint(4.5, "mm", 5, 5000), "; were it inches: 114.3 mm");
   EXPECT_EQ(other_unit_hint(0.1143, "mm", 5, 5000), "; were it metres: 114.3 mm");
   EXPECT_EQ(other_unit_hint(114300, "mm", 5, 5000), "; were it micrometres: 114.3 mm");

@@ -16,7 +16,7 @@ TEST(Letters, TakesCharactersOfEveryLength) {
   EXPECT_TRUE(text.empty());
 }
 
-TEST(Letters, TakesNothingThatIsNotUtf8) {
+TEST(Letters, RefusesInvalidUtf8) {
   for (const std::string text :
        {"\x80", "\xC0\x80", "\xC1\xBF", "\xC3", "\xC3\x28", "\xE0\x80\x80", "\xE2\x82",
         "\xED\xA0\x80", "\xF0\x80\x80\x80", "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "\xFF"}) {

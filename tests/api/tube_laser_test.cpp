@@ -64,7 +64,7 @@ TEST(TubeLaser, EveryCutOfAPartIsSquare) {
       for (const double one : numbers(hole, angle)) EXPECT_EQ(one, 0.0);
 }
 
-TEST(TubeLaser, AContradictionIsRefusedWhereItStands) {
+TEST(TubeLaser, AContradictionIsRefusedAtItsField) {
   struct Case {
     const char* path;
     const char* field;
@@ -168,7 +168,7 @@ TEST(TubeLaser, ASliverBetweenTwoCutsIsSeen) {
   EXPECT_EQ(text(judged.body, "verdict/status"), "reject");
 }
 
-TEST(TubeLaser, ALimitThatNothingIsMeasuredForIsRefused) {
+TEST(TubeLaser, ALimitWithoutAMeasurementIsRefused) {
   const auto table = json(R"({"target": {"outer_diameter_mm": 60, "wall_mm": 4},
     "cutters": [{"kind": "plane", "point_mm": [0, 0, 0], "normal": [0, 0.5, 1]}],
     "root_surface": "inner", "groove": {"rule": "none"}, "kerf_mm": 1,

@@ -11,7 +11,7 @@ namespace {
 
 using api::Json;
 
-TEST(Verdict, LongLinesGoOnAndNoneBeginsWithAClientsWord) {
+TEST(Verdict, LongLinesContinueAndNeverBeginWithAClientsWord) {
   api::Verdict verdict{.status = "review", .reasons = {"free_end"}};
   verdict.warnings.push_back("free_end at /members/0/start_mm: " + std::string(300, 'x') +
                              " LOGOPEN,/tmp/x meets no member here");
@@ -56,7 +56,7 @@ TEST(Verdict, ReasonsAreASet) {
 }
 
 // A cut that follows a member beyond its end is for review by every way to request it.
-TEST(Verdict, AGhostIsNamedByEveryWay) {
+TEST(Verdict, EveryEndpointReportsAGhost) {
   const auto member = *api::parse(R"([
     {"id": "stub", "start_mm": [0, 0, 0], "end_mm": [5, 0, 0], "outer_diameter_mm": 120, "wall_mm": 5},
     {"id": "B", "start_mm": [0, 0, 0], "end_mm": [600, 0, 600], "outer_diameter_mm": 60, "wall_mm": 4}])");

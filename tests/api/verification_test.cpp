@@ -257,7 +257,7 @@ std::size_t peak(const bevel::Table& t, const std::function<double(std::size_t)>
 
 class Tables : public ::testing::TestWithParam<std::tuple<std::size_t, int>> {};
 
-TEST_P(Tables, ANumberThatIsNoneFails) {
+TEST_P(Tables, NanFails) {
   const auto& way = kWays[std::get<0>(GetParam())];
   const auto t = fixed_table(way, std::get<1>(GetParam()));
   const auto passes = [&](std::vector<double> bevel::Table::*column, std::size_t row) {

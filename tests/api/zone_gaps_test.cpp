@@ -110,7 +110,7 @@ Real missed(const Json& answer, const Partner& partner, const std::vector<Zone>&
   return worst;
 }
 
-TEST(ZoneGaps, EveryRootStandsOffByItsZonesGap) {
+TEST(ZoneGaps, EveryRootKeepsItsZonesGap) {
   Random random;
   int made = 0;
   for (int i = 0; i < 240; ++i) {
@@ -211,7 +211,7 @@ TEST(ZoneGaps, TheFieldsInputHasThem) {
   EXPECT_LT(missed(answer.body, Round{161.95L, 35 * kHalf / 180, 0}, zones, 74.15L, false), 1e-6L);
 }
 
-TEST(ZoneGaps, WhatDoesNotGoTogetherIsRefused) {
+TEST(ZoneGaps, ContradictionsAreRefused) {
   const auto request =
       *api::parse(read_project_file("tests/field/zones-with-own-root-gap.bevel-table.json"));
   const auto refused = [&](const Json& asked, std::string_view pointer, std::string_view code) {

@@ -50,7 +50,7 @@ TEST(Keys, AreReadByTheLineAndNeverShown) {
   }
 }
 
-TEST(Access, KnowsItsOwnByTheirKeys) {
+TEST(Access, IdentifiesClientByKey) {
   const auto mes = make_key("mes");
   const auto cell = make_key("cell");
   EXPECT_NE(mes.key, cell.key);
@@ -95,7 +95,7 @@ TEST(Access, GivesEachIdentityItsOwnRate) {
 
 /// Those who take turns: owners of keys, from any address; without keys, addresses, also those that
 /// a trusted proxy names.
-TEST(Access, NamesWhoTakesTurns) {
+TEST(Access, NamesTheClientForFairTurns) {
   const auto mes = make_key("mes");
   const auto cell = make_key("cell");
   AppOptions options;
@@ -116,7 +116,7 @@ TEST(Access, NamesWhoTakesTurns) {
   EXPECT_EQ(client(mes.key, "192.168.1.1"), client(mes.key, "192.168.1.2"));
 }
 
-TEST(Access, IsAskedBeforeTheJobAndNamedInItsRecord) {
+TEST(Access, IsCheckedBeforeTheJobAndNamedInItsRecord) {
   const auto key = make_key("mes");
   auto access = std::make_shared<Access>(file_with("tubecut_app_keys", key.line + "\n"));
   ASSERT_EQ(access->load(), "");
@@ -142,7 +142,7 @@ TEST(Access, IsAskedBeforeTheJobAndNamedInItsRecord) {
   EXPECT_EQ(records.back().identity, "mes");
 }
 
-TEST(Networks, HoldTheirAddresses) {
+TEST(Networks, ContainTheirAddresses) {
   EXPECT_TRUE(in_networks("10.1.2.3", {"10.0.0.0/8"}));
   EXPECT_FALSE(in_networks("11.1.2.3", {"10.0.0.0/8"}));
   EXPECT_TRUE(in_networks("::ffff:10.1.2.3", {"10.1.2.3"}));
@@ -288,14 +288,14 @@ std::vector<std::string> files_in(const std::string& folder) {
   return out;
 }
 
-TEST(JobFiles, KeepKeysApart) {
+TEST(JobFiles, SeparateKeys) {
   const std::vector<std::string> ids = {"b~job", "job", "a~b", "../a~job", "~job"};
   std::set<std::string> names;
   for (const auto* identity : {"mes", "a", "b", "a.b"})
     for (const auto& id : ids) EXPECT_TRUE(names.insert(file_name_of(identity, id)).second) << id;
 }
 
-TEST(JobFiles, QueueSoManyBytes) {
+TEST(JobFiles, QueueIsBoundedInBytes) {
   const auto folder = ::testing::TempDir() + "tubecut_queued_jobs";
   ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
   {
@@ -307,7 +307,7 @@ TEST(JobFiles, QueueSoManyBytes) {
   EXPECT_EQ(files_in(folder + "/2024-03-01"), std::vector<std::string>{"mes~fits.jsonl"});
 }
 
-TEST(JobFiles, HoldTheBoundsOfADay) {
+TEST(JobFiles, KeepWithinTheLimitsOfADay) {
   const auto folder = ::testing::TempDir() + "tubecut_bounded_jobs";
   ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
   for (int turn = 0; turn < 2; ++turn) {  // a new process counts the existing files

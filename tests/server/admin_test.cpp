@@ -33,7 +33,7 @@ TEST(Admin, RefusesTheRestAsProblems) {
   EXPECT_EQ(response.content_type, "application/problem+json");
 }
 
-TEST(Admin, AnswersOnlyToItsNamesWhereToldThem) {
+TEST(Admin, AnswersOnlyToItsNamesIfTheyAreSet) {
   const auto status = [](const char* host, const Hosts& hosts) {
     return admin({.method = "GET", .target = "/metrics", .headers = {{"Host", host}}},
                  {.ready = [] { return true; },
@@ -47,7 +47,7 @@ TEST(Admin, AnswersOnlyToItsNamesWhereToldThem) {
   EXPECT_EQ(status("evil.example", std::nullopt), 200);
 }
 
-TEST(Metrics, CountWhatHappened) {
+TEST(Metrics, CountEveryOutcome) {
   std::uint64_t drops = 0;
   Metrics metrics({.log_drops = [&] { return drops; },
                    .ready = [] { return true; },
@@ -140,7 +140,7 @@ TEST(Metrics, FailuresRiseFromZero) {
   }
 }
 
-TEST(Metrics, StayFewWhateverClientsSend) {
+TEST(Metrics, NumberIsBoundedForAnyRequests) {
   Metrics metrics({});
   const auto series = [&] {
     const auto text = metrics.text();

@@ -49,7 +49,7 @@ std::string member(const Response& response, std::string_view name) {
   return text == nullptr ? std::string{} : *text;
 }
 
-TEST(Status, IsOnePerKindAsTheContractSays) {
+TEST(Status, IsOnePerKindAsInTheContract) {
   const std::vector<std::pair<ErrorKind, int>> contract = {{ErrorKind::unreadable, 400},
                                                            {ErrorKind::unauthorized, 401},
                                                            {ErrorKind::forbidden, 403},
@@ -121,7 +121,7 @@ TEST(App, RefusesJobNamesThatItCannotKeep) {
   }
 }
 
-TEST(App, LeavesOutUnsoundTraces) {
+TEST(App, OmitsInvalidTraces) {
   Fake fake;
   const auto response = fake.app().handle(
       request({{"X-Request-Id", "a\nb"},
@@ -141,7 +141,7 @@ TEST(App, GivesEveryRequestItsOwnId) {
   EXPECT_EQ(std::ranges::adjacent_find(ids), ids.end());
 }
 
-TEST(App, TellsStageTimesAndReplica) {
+TEST(App, ReportsStageTimesAndReplica) {
   Fake fake;
   fake.outcome.job.stages = {{"parse", 0.0005}, {"compute", 0.00125}};
   const auto response = fake.app({.replica = "cell-3"}).handle(request());
@@ -151,7 +151,7 @@ TEST(App, TellsStageTimesAndReplica) {
   EXPECT_EQ(header(response.headers, "Tubecut-Replica"), "cell-3");
 }
 
-TEST(App, NamesTheCharsetSoThatNobodyCompresses) {
+TEST(App, NamesTheCharsetToPreventCompression) {
   Fake fake;
   EXPECT_EQ(fake.app().handle(request()).content_type, "application/json; charset=utf-8");
   fake.outcome.content_type = "application/cbor";
@@ -169,7 +169,7 @@ TEST(App, AnswersHeadAsGet) {
   EXPECT_EQ(header(response.headers, "Allow"), "GET, HEAD");
 }
 
-TEST(App, KeepsTheTextOfAnExceptionToItself) {
+TEST(App, DoesNotSendTheTextOfAnException) {
   Fake fake;
   AppOptions options;
   options.dispatch = [](const api::Call&, const api::Context&) -> api::Outcome {
@@ -212,7 +212,7 @@ TEST(App, TurnsAwayBeforeTheApi) {
   EXPECT_EQ(app.handle(request({{"Content-Encoding", "identity"}})).status, 200);
 }
 
-TEST(App, NamesTheEndpointOfWhatItRefuses) {
+TEST(App, NamesTheEndpointOfARefusal) {
   Fake fake;
   const App app = fake.app({.max_body_bytes = 1});
   const auto endpoint = [&](Request asked) {
@@ -266,7 +266,7 @@ TEST(App, RefusesALineThatIsNotRead) {
 
 /// A job has the same hash of its input, answered, refused by core or over its budget; a body that
 /// is not understood has that of its bytes.
-TEST(App, TellsWhatWasAskedWhateverBecameOfIt) {
+TEST(App, RecordsTheRequestForEveryOutcome) {
   std::vector<JobRecord> records;
   AppOptions options;
   options.replica = "cut-1";
@@ -353,7 +353,7 @@ TEST(App, AnswersALineInTheFormatItNames) {
   EXPECT_EQ(*answer(R"(, "options": {"view": []})").find("status"), api::Json(422.0));
 }
 
-TEST(App, TellsTheLimitsItHoldsTo) {
+TEST(App, PublishesTheLimitsThatItEnforces) {
   const auto limits = [](AppOptions options) {
     const auto page = App(std::move(options)).handle({.method = "GET", .target = "/v1/limits"});
     const auto document = api::parse(page.body);
@@ -422,7 +422,7 @@ TEST(App, BoundsTheWallByTheCpu) {
   }
 }
 
-TEST(App, AnswersOnlyToItsNamesWhereToldThem) {
+TEST(App, AnswersOnlyToItsNamesIfTheyAreSet) {
   Fake fake;
   AppOptions options;
   options.hosts = {"cell-3.plant.example"};
@@ -439,7 +439,7 @@ TEST(App, AnswersOnlyToItsNamesWhereToldThem) {
   EXPECT_EQ(status(fake.app({}), "evil.example"), 200);
 }
 
-TEST(App, AnswersOtherOriginsOnlyWhereAllowed) {
+TEST(App, AnswersOtherOriginsOnlyIfAllowed) {
   Fake fake;
   AppOptions options;
   options.cors_origins = {"https://plant.example"};
@@ -461,7 +461,7 @@ TEST(App, AnswersOtherOriginsOnlyWhereAllowed) {
                   .empty());
 }
 
-TEST(App, TellsOfAJobOnceItHasLeft) {
+TEST(App, RecordsAJobAfterItIsSent) {
   Fake fake;
   std::vector<JobRecord> left;
   AppOptions options;

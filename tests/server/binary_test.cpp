@@ -57,7 +57,7 @@ void await_ready(const Service& service) {
   }
 }
 
-TEST(Binary, SaysFirstWhereItListens) {
+TEST(Binary, FirstPrintsItsAddress) {
   const Service service;
   EXPECT_EQ(service.ready, "{\"event\":\"ready\",\"port\":" + std::to_string(service.port) +
                                ",\"admin_port\":" + std::to_string(service.admin_port) +
@@ -152,7 +152,7 @@ TEST(Binary, EndsAtOnceOnASecondSignal) {
   EXPECT_EQ(service.program.exit_code(), 128 + SIGTERM);
 }
 
-TEST(Binary, AnswersThoughNobodyReadsItsLog) {
+TEST(Binary, AnswersWithoutAReaderOfItsLog) {
   Service service({"--log-queue", "16"});
   Client client(service.port);
   for (int i = 0; i < 2000; ++i) {  // lines of some 300 bytes: several times the capacity of the
@@ -167,7 +167,7 @@ TEST(Binary, AnswersThoughNobodyReadsItsLog) {
 }
 
 /// 20 MB leave 16 MiB for jobs, so 349 525 bytes for a body, and half for the lines of a batch.
-TEST(Binary, TakesBodiesItsMemoryHasRoomFor) {
+TEST(Binary, AcceptsBodiesThatFitInMemory) {
   Service service({"--memory-bytes", "20000000"});
   const std::string fits(174'000, ' ');
   const std::string too_large(175'000, ' ');
@@ -203,7 +203,7 @@ TEST(Binary, RefusesAPortThatIsTaken) {
   EXPECT_EQ(second.exit_code(), 1);
 }
 
-TEST(Binary, ProbesItself) {
+TEST(Binary, ChecksItsOwnReadiness) {
   Service service;
   await_ready(service);
   const std::vector<std::string> health = {TUBECUT_BINARY, "--admin-port",
@@ -263,7 +263,7 @@ TEST(Binary, RunsABatchWithoutAServer) {
   EXPECT_EQ(program.exit_code(), 1);
 }
 
-TEST(Binary, SaysWhatItMayUse) {
+TEST(Binary, ReportsItsResources) {
   const Service service({"--slots", "3", "--queue", "5"});
   const auto json = api::parse(service.capacity);
   ASSERT_TRUE(json) << service.capacity;
@@ -319,7 +319,7 @@ std::pair<std::string, std::string> new_key(const char* name) {
   return std::pair(key, program.line());
 }
 
-TEST(Binary, AsksForKeysAndReadsThemAgain) {
+TEST(Binary, RequiresKeysAndReloadsThem) {
   const auto first = new_key("mes");
   const auto second = new_key("cell");
   const std::string file = ::testing::TempDir() + "tubecut_binary_keys";
@@ -393,7 +393,7 @@ TEST(Binary, KeepsAFilePerAcceptedJobOfAKey) {
   EXPECT_EQ(text.find("arm_mm"), std::string::npos);
 }
 
-TEST(Binary, KnowsItsAnswers) {
+TEST(Binary, PassesItsSelftest) {
   Program program({TUBECUT_BINARY, "selftest"});
   std::string last;
   for (std::string line = program.line(); !line.empty(); line = program.line()) last = line;

@@ -98,7 +98,7 @@ TEST(Config, PassesOverNoMistake) {
   }
 }
 
-TEST(Config, TellsAboutItself) {
+TEST(Config, PrintsHelpAndVersion) {
   const auto help = read({"--help"});
   ASSERT_FALSE(help);
   EXPECT_EQ(help.error().code, 0);
@@ -109,7 +109,7 @@ TEST(Config, TellsAboutItself) {
   EXPECT_EQ(read({"--version"}).error().out.substr(0, 8), "tubecut ");
 }
 
-TEST(Config, PrintsWhatItReadsBack) {
+TEST(Config, PrintsAFileThatItCanRead) {
   const auto printed = read({"--port", "0", "--idle-s", "3.5", "--print-config"});
   ASSERT_FALSE(printed);
   EXPECT_EQ(printed.error().code, 0);
@@ -120,7 +120,7 @@ TEST(Config, PrintsWhatItReadsBack) {
   EXPECT_EQ(again->config.idle_s, 3.5);
 }
 
-TEST(Config, SeesALineThatSetsNothing) {
+TEST(Config, RefusesALineThatSetsNothing) {
   for (const auto* text : {"=\n", "port = 1001\n  = 5\n"}) {
     const std::string name = file_with(text);
     const auto command = read({"--config", name.c_str()});
@@ -130,7 +130,7 @@ TEST(Config, SeesALineThatSetsNothing) {
   }
 }
 
-TEST(Config, SplitsListsAtCommasWhereverTheyStand) {
+TEST(Config, SplitsListsAtCommasInEverySource) {
   const std::vector<std::string> proxies = {"10.0.0.0/8", "127.0.0.0/8"};
   const std::vector<std::string> origins = {"https://a.b", "http://127.0.0.1:3"};
   const Variable some("TUBECUT_TRUSTED_PROXY", "10.0.0.0/8,127.0.0.0/8");
@@ -150,7 +150,7 @@ TEST(Config, SplitsListsAtCommasWhereverTheyStand) {
   EXPECT_EQ(file->config.cors_origins, origins);
 }
 
-TEST(Config, KnowsItsCommands) {
+TEST(Config, ReadsItsCommands) {
   EXPECT_EQ(read({"health"})->kind, Command::Kind::health);
   const auto run = read({"run", "--endpoint", "bevel-tables", "a.json"});
   ASSERT_TRUE(run) << run.error().err;

@@ -20,7 +20,7 @@ std::chrono::nanoseconds worked(const std::stop_token& stop) {
   return cpu.used();
 }
 
-TEST(CpuLimit, StopsAThreadByItsOwnTimeWhoeverElseLooks) {
+TEST(CpuLimit, StopsAThreadByItsOwnTime) {
   std::jthread([] {
     for (const auto most : {20ms, 50ms}) {
       std::stop_source stop;
@@ -33,7 +33,7 @@ TEST(CpuLimit, StopsAThreadByItsOwnTimeWhoeverElseLooks) {
   }).join();
 }
 
-TEST(CpuLimit, DoesNotCountWhatAThreadWaits) {
+TEST(CpuLimit, DoesNotCountWaiting) {
   std::stop_source stop;
   CpuBudget budget(stop);
   const CpuLimit limit(budget, 200ms, CpuClock::of_this_thread());
@@ -57,7 +57,7 @@ TEST(CpuLimit, EndsWithItsJob) {
 
 // The timer stays set from one job to the next: as it was for a longer one, a shorter one, one
 // that had all its time.
-TEST(CpuLimit, IsEachJobsOwnWhateverTheOneBeforeLeft) {
+TEST(CpuLimit, IsIndependentOfThePreviousJob) {
   using std::chrono::nanoseconds;
   nanoseconds latest{0};
   const auto in_turn = [&latest] {
@@ -115,7 +115,7 @@ TEST(CpuLimit, IsOfAllThreadsOfAJobTogether) {
 }
 
 // It may come to hold much once it has run for long: from then on it is stopped sooner.
-TEST(CpuLimit, StopsInTimeToGiveBackWhatTheJobHolds) {
+TEST(CpuLimit, StopsInTimeToFreeTheJobsMemory) {
   constexpr auto kMost = 400ms;
   std::chrono::nanoseconds used{0};
   const auto job = [&used, kMost] {
@@ -139,7 +139,7 @@ TEST(CpuLimit, StopsInTimeToGiveBackWhatTheJobHolds) {
   EXPECT_LT(used, kMost);
 }
 
-TEST(CpuLimit, LeavesAJobAllOfItsBudgetOnceItHoldsNothing) {
+TEST(CpuLimit, LeavesTheWholeBudgetToAJobWithoutMemory) {
   constexpr auto kMost = 200ms;
   std::stop_source stop;
   HeldBytes held{.own = std::size_t{256} << 20};

@@ -45,7 +45,7 @@ TEST(FairQueue, IsFirstInFirstOutForNewcomers) {
 }
 
 /// However many jobs one client has waiting, another's next job is at most one turn away.
-TEST(FairQueue, LetsNoClientTakeAnothersTurn) {
+TEST(FairQueue, ClientsShareSlotsFairly) {
   FairQueue queue;
   for (int i = 0; i < 1000; ++i) queue.push(job("greedy", 1.0));
   for (int round = 0; round < 20; ++round) {
@@ -116,7 +116,7 @@ TEST(FairQueue, FindsTheQuickBehindTheLong) {
   EXPECT_EQ(queue.pop_quick(1.0), nullptr);
 }
 
-TEST(FairQueue, HoldsTrialsBackWhereTheyCouldBlockTheKnown) {
+TEST(FairQueue, DelaysTrialsIfTheyCouldBlockKnownJobs) {
   FairQueue queue;
   const auto trial = job("new", 0.001), known = job("old", 0.001);
   trial->claim.trial = true;
@@ -145,7 +145,7 @@ TEST(FairQueue, ForetellsTheWaitOfEachClient) {
   EXPECT_DOUBLE_EQ(queue.before({.client = "modest", .expected_s = 0.1}, true), 0.0);
 }
 
-TEST(FairQueue, ForgetsWhoHasNothingHere) {
+TEST(FairQueue, ForgetsClientsWithoutJobs) {
   FairQueue queue;
   std::mt19937 random(3);
   std::vector<std::shared_ptr<Job>> waiting;
@@ -180,7 +180,7 @@ TEST(FairQueue, ForgetsWhoHasNothingHere) {
   EXPECT_DOUBLE_EQ(queue.before({.client = "c1", .expected_s = 1.0}, false), 0.0);
 }
 
-TEST(MemoryShare, GivesItselfBackWhateverBecomesOfIt) {
+TEST(MemoryShare, IsAlwaysReleased) {
   MemoryBound whole(100);
   MemoryBound part(50, &whole);
   {

@@ -66,7 +66,7 @@ TEST(Helpers, LeaveAfterTheTurnAtHandWhenASlotIsWanted) {
   EXPECT_EQ(by_others, 1);
 }
 
-TEST(Helpers, BeginOnlyWhereASlotIsFree) {
+TEST(Helpers, BeginOnlyIfASlotIsFree) {
   Helpers helpers(2, [] {});
   const auto own = std::this_thread::get_id();
   helpers.take_turns(
@@ -74,7 +74,7 @@ TEST(Helpers, BeginOnlyWhereASlotIsFree) {
 }
 
 /// As a loop would: whoever throws first.
-TEST(Helpers, HandOnWhatTheLeastTurnThrew) {
+TEST(Helpers, RethrowExceptionOfFirstFailedTask) {
   Helpers helpers(1, [] {});
   helpers.allow(1);
   std::latch both(2);

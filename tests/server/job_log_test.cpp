@@ -34,7 +34,7 @@ JobRecord hostile() {
   return job;
 }
 
-TEST(JobLine, IsOneLineOfStrictJsonWhateverItHolds) {
+TEST(JobLine, IsOneLineOfStrictJsonForAnyContent) {
   const auto line = job_line(hostile(), system_clock::time_point(milliseconds(1709294400123)));
   EXPECT_EQ(line.find('\n'), line.npos);
   EXPECT_EQ(line.find('\x1b'), line.npos);
@@ -65,7 +65,7 @@ TEST(JobLine, SurvivesEveryByte) {
 }
 
 /// The line of any job is bounded, still JSON, and reports the omitted texts.
-TEST(JobLine, IsAtMostSoLong) {
+TEST(JobLine, LengthIsBounded) {
   for (const auto* piece : {"a_warning_of_some_length", "\x01\x02", "\xc3\xa4", "\"\\"}) {
     JobRecord job = hostile();
     std::string long_text;
@@ -121,7 +121,7 @@ TEST(JobLog, KeepsOrderAndNeverBlocksOnAReaderThatStopped) {
 }
 
 /// A reader that has stopped costs 4 MiB of lines, however long and however many they may be.
-TEST(JobLog, HoldsSoManyBytes) {
+TEST(JobLog, IsBoundedInBytes) {
   signal(SIGPIPE, SIG_IGN);
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
@@ -133,7 +133,7 @@ TEST(JobLog, HoldsSoManyBytes) {
   close(ends[0]);
 }
 
-TEST(JobLog, EndsThoughNobodyReads) {
+TEST(JobLog, EndsWithoutAReader) {
   signal(SIGPIPE, SIG_IGN);  // as the service does
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
@@ -145,7 +145,7 @@ TEST(JobLog, EndsThoughNobodyReads) {
   close(ends[0]);  // the thread left behind sees a closed pipe now
 }
 
-TEST(JobLog, LeavesOutJobsBelowItsLevelAndNothingElse) {
+TEST(JobLog, OmitsOnlyJobsBelowItsLevel) {
   const auto written = [](const std::string& least) {
     std::array<int, 2> ends{};
     EXPECT_EQ(pipe(ends.data()), 0);
@@ -167,7 +167,7 @@ TEST(JobLog, LeavesOutJobsBelowItsLevelAndNothingElse) {
   EXPECT_EQ(written("error"), "500\n504\nstopping\n");
 }
 
-TEST(JobLog, CountsLinesThatNobodyTakes) {
+TEST(JobLog, CountsDroppedLines) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   signal(SIGPIPE, SIG_IGN);

@@ -246,7 +246,7 @@ TEST(JobMemory, IsStatedForEveryEndpointAndFormat) {
     }
 }
 
-TEST(JobMemory, EndsWhereNoMoreIsGiven) {
+TEST(JobMemory, ThrowsIfTheGrantIsRefused) {
   std::size_t asked = 0;
   JobMemory memory(10'000, [&](std::size_t bytes) {
     asked += bytes;
@@ -266,7 +266,7 @@ TEST(JobMemory, EndsWhereNoMoreIsGiven) {
   EXPECT_NO_THROW(held.push_back(std::make_unique<char[]>(2'000'000)));
 }
 
-TEST(JobMemory, TellsOthersWhatItHolds) {
+TEST(JobMemory, ReportsItsBytesToOtherThreads) {
   std::atomic<std::size_t> live = 0;
   {
     const JobMemory memory(
@@ -305,7 +305,7 @@ TEST(JobMemory, CountsEveryFormOfNew) {
 }
 
 /// Pieces that another thread has made, and that this one frees.
-TEST(JobMemory, TakesOverWhatAnotherThreadHasMade) {
+TEST(JobMemory, TakesOverMemoryOfAnotherThread) {
   std::atomic<std::size_t> live = 0;
   JobMemory memory(
       10'000, [](std::size_t) { return Grant::in_use; }, &live);
@@ -337,7 +337,7 @@ std::vector<Costly> everyday() {
 }
 
 /// Whatever is being computed or printed when memory ends: a refusal, not the end of the process.
-TEST(JobMemory, EndsAJobWithARefusalWhereverItIs) {
+TEST(JobMemory, EndsAJobWithARefusalAtAnyAllocation) {
   constexpr std::size_t kParts = 10;
   const server::App app({.budget = std::chrono::hours(1)});
   std::size_t refused = 0;

@@ -79,7 +79,7 @@ std::string conversation() {
          post("/batch", "one\ntwo\n\nthree\n") + get("/last", "Connection: close\r\n");
 }
 
-TEST(MemoryFaults, EndAConnectionAndNothingElse) {
+TEST(MemoryFaults, EndOnlyOneConnection) {
   auto transport = Transport::open({.slots = 2}, service()).value();
   auto served = std::async(std::launch::async, [&] { return transport.serve(); });
   while (!transport.serving()) std::this_thread::sleep_for(1ms);

@@ -19,7 +19,7 @@ RequestReader at_body(const std::string& framing) {
 
 // With any arrival pattern: never more than eight times the received bytes, and in the end only its
 // length.
-TEST(RequestReader, HoldsABodyByWhatHasComeOfIt) {
+TEST(RequestReader, HoldsMemoryInProportionToTheReceivedBody) {
   const std::string body(kBody, 'x');
   for (const std::size_t piece : {std::size_t{1} << 20, std::size_t{65536}, std::size_t{1000}}) {
     auto reader = at_body("Content-Length: " + std::to_string(kBody));
@@ -38,7 +38,7 @@ TEST(RequestReader, HoldsABodyByWhatHasComeOfIt) {
   }
 }
 
-TEST(RequestReader, HoldsNothingOfABodyThatIsOnlyAnnounced) {
+TEST(RequestReader, HoldsNoMemoryForAnAnnouncedBody) {
   auto reader = at_body("Content-Length: " + std::to_string(kBody));
   EXPECT_LT(reader.held(), 1000U);
   EXPECT_EQ(reader.take("x"), 1U);

@@ -12,7 +12,7 @@
 namespace tubecut::server {
 namespace {
 
-TEST(Selftest, KnowsEveryEndpointButTheLongOne) {
+TEST(Selftest, CoversEveryEndpointButTheLongOne) {
   std::set<std::string_view> left;
   for (const auto& example : api::examples()) left.insert(example.endpoint);
   EXPECT_GE(left.size(), 10U);
@@ -32,7 +32,7 @@ TEST(Selftest, SeesEachAnswerThatDiffers) {
   }
 }
 
-TEST(Selftest, IsNotPassedWithNothingToCompare) {
+TEST(Selftest, FailsWithNothingToCompare) {
   EXPECT_NE(selftest_fault({}), "");
   const KnownAnswer nowhere[] = {{"nodes", "no such example", "00"}};
   EXPECT_NE(selftest_fault(nowhere).find("no such example"), std::string::npos);

@@ -43,7 +43,7 @@ bool comes(const Condition& true_now) {
 
 /// Jobs that come together while threads fall asleep, are on the way back and are called: whoever
 /// is called or comes back takes them all.
-TEST(Slots, DoWhatComesWhateverTheirThreadsAreAt) {
+TEST(Slots, RunEveryJobInAnyStateOfTheirThreads) {
   for (const int count : {1, 2, 3}) {
     std::atomic<int> done = 0;
     Slots slots(
@@ -90,7 +90,7 @@ TEST(Slots, AreAllTakenByJobsThatComeTogether) {
 
 /// Three clients that repeat as soon as they are answered, and one with a long job: it gets its
 /// turn.
-TEST(Slots, BelongToLongJobsTooBesideQuickOnesWithoutEnd) {
+TEST(Slots, LongJobsAreNotStarved) {
   std::atomic<bool> begun = false, over = false;
   std::atomic<Slots*> slots = nullptr;
   std::atomic<int> quick = 0;

@@ -108,7 +108,7 @@ TEST(StaticFiles, AreNeverHalf) {
     EXPECT_THROW(static_answer(get("/"), {&broken, 1}), std::runtime_error) << broken.etag;
 }
 
-TEST(StaticFiles, PagesAllowNothingFromElsewhereAndNothingInline) {
+TEST(StaticFiles, PagesAllowOnlyOwnFilesAndNoInlineCode) {
   const auto page = static_answer(get("/"), kFiles);
   const auto policy = header(page->headers, "Content-Security-Policy");
   EXPECT_NE(policy.find("default-src 'none'"), policy.npos);
@@ -141,7 +141,7 @@ TEST(StaticFiles, LeaveEverythingElseToTheApi) {
   EXPECT_TRUE(static_answer(get("/?any=query"), kFiles));
 }
 
-TEST(StaticFiles, WithoutAConsoleThePageSaysSo) {
+TEST(StaticFiles, WithoutAConsoleThePageReportsIt) {
   for (const char* path : {"/", "/docs"}) {
     const auto page = static_answer(get(path), {});
     ASSERT_TRUE(page);

@@ -131,7 +131,7 @@ TEST(Transport, WaitsForExpectContinue) {
   EXPECT_TRUE(client.at_end());
 }
 
-TEST(Transport, RefusesAndClosesWhatItDoesNotRead) {
+TEST(Transport, RefusesAndClosesUnreadRequests) {
   const Port port;
   const std::string head = "POST /b HTTP/1.1\r\nHost: x\r\n";
   const std::vector<std::pair<std::string, std::string>> cases = {
@@ -201,7 +201,7 @@ TEST(Transport, LetsAClientReadWhyItsLargeBodyIsRefused) {
   }
 }
 
-TEST(Transport, ClosesClientsThatTakeNothingBeforeItRefusesOthers) {
+TEST(Transport, ClosesSlowReadersBeforeItRefusesOthers) {
   TransportOptions options;
   options.memory = 1;  // the least there is: 16 MiB
   options.write = 60s;
@@ -255,7 +255,7 @@ TEST(Transport, LetsAHalfClosedClientReadAllOfItsAnswer) {
   EXPECT_TRUE(client.at_end());
 }
 
-TEST(Transport, AnswersAcceptedWorkWhateverComesBehindIt) {
+TEST(Transport, AnswersAcceptedWorkWithAnyBytesAfterIt) {
   TransportOptions options;
   options.memory = 1;  // the least there is: 16 MiB
   options.queue = 300;
@@ -425,7 +425,7 @@ TEST(Transport, AnswersAClientsQuickJobsWhileAnothersOfTheKindAreLong) {
 
 /// Long jobs of the past must not cause refusals on an idle service. A job that would have to wait
 /// for a quarter of its budget is refused, and the long ones took three.
-TEST(Transport, RefusesNobodyOnAnIdleServiceForWhatWasLongBefore) {
+TEST(Transport, PastLongJobsCauseNoRefusalsOnAnIdleService) {
   auto service = service_of([](const Request& request) {
     if (request.target.starts_with("/long")) compute_for(300ms);
     return echo(request);
@@ -466,7 +466,7 @@ TEST(Transport, CountsAJobsOwnCpu) {
 }
 
 /// The job also frees the memory that helpers hold for it, after they are gone.
-TEST(Transport, StopsAJobInTimeToGiveBackWhatItsHelpersHold) {
+TEST(Transport, StopsAJobInTimeToFreeItsHelpersMemory) {
   constexpr std::size_t kEach = std::size_t{128} << 20;
   constexpr auto kCpu = 400ms;
   const auto handle = [](const Request& request) {
@@ -495,7 +495,7 @@ TEST(Transport, StopsAJobInTimeToGiveBackWhatItsHelpersHold) {
 }
 
 /// As many silent sockets as there may be, begun or not: a newcomer is answered all the same.
-TEST(Transport, AnswersNewcomersBesideSilentSockets) {
+TEST(Transport, AnswersNewClientsDespiteSilentSockets) {
   TransportOptions options;
   options.connections = 32;
   options.idle = options.head = 60s;
@@ -509,7 +509,7 @@ TEST(Transport, AnswersNewcomersBesideSilentSockets) {
   for (int i = 0; i < 64; ++i) ASSERT_EQ(one(port, get("/good")), "GET /good ") << i;
 }
 
-TEST(Transport, LeavesRoomBesideAnAddressThatHasItsShare) {
+TEST(Transport, KeepsConnectionsFreeDespiteABusyAddress) {
   TransportOptions options;
   options.connections = 32;
   options.per_client = 4;
@@ -524,7 +524,7 @@ TEST(Transport, LeavesRoomBesideAnAddressThatHasItsShare) {
 }
 
 /// Behind a proxy all come from one address: a key has its share of the connections all the same.
-TEST(Transport, LeavesRoomBesideAKeyThatHasItsShare) {
+TEST(Transport, KeepsConnectionsFreeDespiteABusyKey) {
   auto service = service_of(echo);
   service.client = [](const Request& request) {
     return std::string(header(request.headers, "Who"));
@@ -558,7 +558,7 @@ TEST(Transport, TakesAPortOnce) {
   EXPECT_NE(second.error().find(std::to_string(port.number())), std::string::npos);
 }
 
-TEST(Probe, TellsTheStatusOrNothing) {
+TEST(Probe, ReturnsTheStatusOrNothing) {
   int number = 0;
   {
     const Port port;

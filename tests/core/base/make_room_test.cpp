@@ -7,7 +7,7 @@
 namespace tubecut {
 namespace {
 
-TEST(MakeRoom, KeepsWhatIsThereWhateverItsLength) {
+TEST(MakeRoom, KeepsContentsOfAnyLength) {
   for (const std::size_t length : {0u, 1u, 8191u, 8192u, 8193u, 100'000u}) {
     std::vector<int> rows(length);
     std::iota(rows.begin(), rows.end(), 7);
@@ -24,7 +24,7 @@ TEST(MakeRoom, KeepsWhatIsThereWhateverItsLength) {
   }
 }
 
-TEST(MakeRoom, LeavesNothingToMoveToOneWhoIsStopped) {
+TEST(MakeRoom, MovesNothingAfterAStop) {
   std::stop_source stop;
   std::vector<int> rows(100'000, 1);
   rows.shrink_to_fit();

@@ -39,7 +39,7 @@ TEST(CutOracle, FindsTheDeepestPlaceOfAWallInAPlane) {
 
 // The ruled wall sags off a thin tube across the target by the axis distance: half way between the
 // rows 0 and 90 deg both edges are at 45 deg.
-TEST(CutOracle, SeesBetweenRowsWhatRowsDoNotShow) {
+TEST(CutOracle, FindsErrorsBetweenRows) {
   const double r = 1.0;
   const joint::AxisTube tube{.radius = r,
                              .axis = {.point = {0, 0, 0}, .direction = {1.0, 1.0, 0.0}}};
@@ -53,7 +53,7 @@ TEST(CutOracle, SeesBetweenRowsWhatRowsDoNotShow) {
 }
 
 // One tube by its four numbers and by its axis.
-TEST(CutOracle, PlacesTubesAsTheFrameSays) {
+TEST(CutOracle, PlacesTubesByTheFrame) {
   oracle::Random random{std::mt19937_64(20261122)};
   for (int n = 0; n < 50; ++n) {
     const joint::TubeCutter tube{.radius = random.any(5, 50),
@@ -176,7 +176,7 @@ TEST(BetweenRows, ALandIsHeldAcrossTheSeamToo) {
 }
 
 // A dent between two unchanged rows: only a check between rows can see it.
-TEST(BetweenRows, ARowLeftOutIsSeen) {
+TEST(BetweenRows, AnOmittedRowIsDetected) {
   auto spec = table_1();
   auto made = table(spec);
   ASSERT_TRUE(made);
@@ -202,7 +202,7 @@ TEST(BetweenRows, ARowLeftOutIsSeen) {
 
 // ---- without a guarantee, the deviation is measured and reported
 
-TEST(BetweenRows, ContactNoneSaysWhereAndHowDeep) {
+TEST(BetweenRows, ContactNoneReportsPositionAndDepth) {
   struct Case {
     RootSurface root;
     Dihedral dihedral;
@@ -237,7 +237,7 @@ TEST(BetweenRows, ContactNoneSaysWhereAndHowDeep) {
   }
 }
 
-TEST(BetweenRows, ABareGridSaysWhatItsPointsMiss) {
+TEST(BetweenRows, ABareGridReportsTheErrorBetweenItsPoints) {
   auto spec = table_1();
   for (const std::size_t points : {24U, 36U, 90U, 1440U}) {
     spec.sampling = {.uniform_points = points};

@@ -330,7 +330,7 @@ TEST(OffsetPair, EqualsTheSourcesOwnFormulas) {
   EXPECT_LT(worst_outer, 1e-9);
 }
 
-TEST(RootAndCoating, StandOffTheMetal) {
+TEST(RootAndCoating, KeepTheirDistanceFromTheMetal) {
   auto spec = table_1(Contact::inner);
   spec.coating = 0.4;
   spec.root_gap = 2.0;
@@ -527,7 +527,7 @@ std::vector<std::array<double, 3>> overhangs(const Table& table) {
 // A bore that meets its partner all round and a wall that does not: on each side it reaches beyond
 // the partner's by plain sums of radii, over the arc of that sine. If the partner is equally wide
 // or wider, there is no warning.
-TEST(Contact, AWallWiderThanItsPartnerSaysWhereItOverhangs) {
+TEST(Contact, AWallWiderThanItsPartnerReportsItsOverhang) {
   for (const double inclination : {45.0, 60.0, 90.0})
     for (const double offset : {0.0, 0.6}) {
       const double outer = 30.15, partner = 26.0;

@@ -163,7 +163,7 @@ TEST(LeastArea, NoMultipliersProveMoreThanIsTrue) {
 }
 
 /// Multipliers of another table, missing ones, or NaN prove nothing, and the check fails.
-TEST(LeastArea, WhatIsNotThereProvesNothing) {
+TEST(LeastArea, MissingMultipliersProveNothing) {
   std::mt19937_64 random(20240507);
   const auto profile = real_nodes::random_node(random, 90, kTorch);
   const EnvelopeSpec spec{.limits = kSlow, .highest = kTorch};
@@ -183,7 +183,7 @@ TEST(LeastArea, WhatIsNotThereProvesNothing) {
 }
 
 /// A profile that is not the least is seen: twice the excess of anything that lies above it.
-TEST(LeastArea, AWorseProfileIsSeen) {
+TEST(LeastArea, AWorseProfileIsDetected) {
   std::mt19937_64 random(20240506);
   for (int i = 0; i < 50; ++i) {
     const auto profile = real_nodes::random_node(random, 180, kTorch);

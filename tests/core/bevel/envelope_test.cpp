@@ -257,7 +257,7 @@ TEST(EnvelopeMetamorphic, ShiftRotateReverseScale) {
 
 /// Where the path begins, and which way it runs, is nobody's business: the seam of a tube, and the
 /// place where the ring is cut open to be solved.
-TEST(EnvelopeMetamorphic, TheLeastAreaKnowsNoSeam) {
+TEST(EnvelopeMetamorphic, TheMinimumAreaDoesNotDependOnTheSeam) {
   Random random{std::mt19937_64(78)};
   for (int i = 0; i < 60; ++i) {
     const auto profile = real_nodes::random_node(random.engine, 180, kTorch);

@@ -262,7 +262,7 @@ TEST(HoleTorchLine, ACorruptedRowIsSeen) {
 }
 
 // Twelve points round a hole cut the corners: reported, with position and amount.
-TEST(HoleBetweenRows, ABareGridSaysWhatItsPointsMiss) {
+TEST(HoleBetweenRows, ABareGridReportsTheErrorBetweenItsPoints) {
   for (const auto kind : {JointKind::set_on, JointKind::set_in, JointKind::through})
     for (const std::size_t points : {12U, 720U}) {
       HoleSpec spec;

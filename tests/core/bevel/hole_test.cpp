@@ -220,7 +220,7 @@ TEST(Hole, RightAngleHasItsClosedForm) {
   }
 }
 
-TEST(Hole, FreeTiltCutsTheAskedGrooveAllAround) {
+TEST(Hole, FreeTiltCutsTheRequestedGrooveAllAround) {
   auto s = plain(JointKind::set_in);
   s.tilt = Tilt::free;
   s.sampling.uniform_points = 360;
@@ -290,7 +290,7 @@ TEST(Hole, SetOnEqualTubesAreCutAlongTheBranchAtEverySizeAndAngle) {
 
 // A branch whose bore is wider than the chord's by more than rounding misses it, and is refused
 // just where it does.
-TEST(Hole, SetOnWiderBoresAreRefusedWhereTheyMiss) {
+TEST(Hole, SetOnWiderBoresAreRefusedIfTheyMiss) {
   HoleSpec s;
   s.chord = {.outer_radius = 30.15, .wall = 3.91};
   s.branch = joint::TubeCutter{.radius = 30.15, .clocking = Angle::deg(90)};
@@ -489,7 +489,7 @@ TEST(Hole, NoEdgeCrossesItself) {
 }
 
 /// With a kerf pairs of nodes within it are looked at, so there may be fewer nodes.
-TEST(Hole, HasFewerNodesWhereTheKerfIsWide) {
+TEST(Hole, AWideKerfAllowsFewerNodes) {
   auto s = plain(JointKind::set_in);
   s.sampling = {.uniform_points = 20'000, .tolerance = {}, .max_nodes = 20'000};
   const double girth = kTwoPi * std::get<joint::TubeCutter>(s.branch).radius;

@@ -126,7 +126,7 @@ TEST(RadiusRates, TheGapIsTheChordsChangeAndTheBranchsByTheCosineOfTheDihedral) 
   EXPECT_GT(rows, 800);
 }
 
-TEST(RadiusRates, ThereIsNoneAtASilhouette) {
+TEST(RadiusRates, AreAbsentAtASilhouette) {
   const auto cutter = joint::prepare(
       joint::Cutter{joint::TubeCutter{.radius = 40.0, .inclination = Angle::deg(60)}});
   ASSERT_TRUE(cutter);

@@ -161,7 +161,7 @@ TEST(Required, NeverBelowAScanOfTheWallAndCloseToIt) {
   EXPECT_LT(lift_above, 0.1);  // resolution again, at a silhouette
 }
 
-TEST(Required, PlaneAlone) {
+TEST(Required, PlaneOnly) {
   const std::vector<joint::Cutter> plane{joint::PlaneCutter{{0, 0, 10}, {0, -0.5, 1}}};
   const Inner inner{*joint::trace(plane, 30), {30, 35}};
   for (std::size_t degree = 0; degree < 360; degree += 7)

@@ -247,7 +247,7 @@ TEST(Hermite, EndSlopesAreThePublishedOneSidedOnes) {
   EXPECT_NEAR(window.slope_end, 0.02 / 0.5, 1e-12);
 }
 
-TEST(Hermite, AutoIsTheLeastThatFits) {
+TEST(Hermite, AutoIsTheSmallestThatFits) {
   const auto profile = uniform(plateau(120, 0, 59, 1.0));
   const auto out = hermite(profile, {.limit = 0.13, .transition = {}});  // 1.5 / 0.13 = 11.54
   ASSERT_TRUE(out);

@@ -102,7 +102,7 @@ TEST(TableArrays, ATubesNormalOnAndOffItsAxis) {
   EXPECT_NEAR(normal.at(1).z(), -1.0, 1e-15);
 }
 
-TEST(TableArrays, CountsWhatIsNoFiniteNumber) {
+TEST(TableArrays, CountsNonFiniteNumbers) {
   const double kInfinite = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < 40; ++n) {
     std::vector<double> values(n, -0.0);

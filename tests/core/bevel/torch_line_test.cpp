@@ -54,7 +54,7 @@ void expect_clear(const Seen& s, const std::string& what) {
 }
 
 /// Pairs of rows within a kerf are looked at, so there may be fewer rows with one.
-TEST(TorchLine, HasFewerRowsWhereTheKerfIsWide) {
+TEST(TorchLine, AWideKerfAllowsFewerRows) {
   auto spec = pair(88.9, 5.0, 114.3, 60.0);
   spec.kerf = 40.0;
   const auto most = most_rows(spec.kerf, spec.target.outer_radius);
@@ -247,7 +247,7 @@ TEST(TorchLine, StaysOutOfRandomTables) {
 
 // If B swings, the metal next to the swing is in the way of lines that tilt more: narrow across the
 // wall, between sampled points. Up to 0.023 mm were taken in these.
-TEST(TorchLine, StaysOutBesideASwing) {
+TEST(TorchLine, StaysOutOfThePartNextToASwing) {
   std::mt19937_64 random(20261122);
   for (int n = 0; n <= 1575; ++n) {
     const auto spec = any_table(random);

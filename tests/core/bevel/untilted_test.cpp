@@ -44,7 +44,7 @@ double any(std::mt19937_64& random, double low, double high) {
 
 // A branch r at right angles on a chord R, x across the chord: the inner edge touches at sqrt(R^2 -
 // r_i^2 cos^2), the outer one lies straight next to it; a flush bevel follows the chord's tangent.
-TEST(UntiltedEnd, SaddleAtRightAnglesLeavesWhatPlainTrigonometryTells) {
+TEST(UntiltedEnd, SaddleAtRightAnglesLeavesTheClosedFormGap) {
   constexpr double kChord = 60, kOuter = 40, kWall = 4, kInner = kOuter - kWall;
   const auto t = table(square_end(kOuter, kWall, {tube(kChord, 90)}));
   ASSERT_TRUE(t);

@@ -129,7 +129,7 @@ TEST(Table, ByPointsAndBySteps) {
   EXPECT_EQ(uneven.feed[4], 25.0);
 }
 
-TEST(FeedCurve, OptionalSectionsAreThereWhenAsked) {
+TEST(FeedCurve, OptionalSectionsArePresentIfRequested) {
   auto spec = small_request();
   const auto all = feed_curve(spec).value();
   EXPECT_TRUE(all.cycle && all.tool && all.comparison);

@@ -221,7 +221,7 @@ TEST(Calibration, OneMeasuredPairGivesTheRate) {
   EXPECT_NEAR(machine.tool_feed(stroke).value(), 30.0, 1e-12);
 }
 
-TEST(Calibration, RefusesWhatIsNoMeasurement) {
+TEST(Calibration, RefusesInvalidMeasurements) {
   Linkage linkage = testing::table_3();
   linkage.calibrate = MeasuredPair{30.0, 10.0};
   EXPECT_EQ(Mechanism::make(linkage).error().code(), ErrorCode::exclusive_fields);

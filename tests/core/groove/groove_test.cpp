@@ -248,7 +248,7 @@ double cut_by_plane(const GrooveSpec& spec, const Groove& g, std::size_t index) 
   return count * kStep * kStep;
 }
 
-TEST(GrooveFigures, NormalAreaIsTheAskedOneAcrossTheSeam) {
+TEST(GrooveFigures, NormalAreaIsTheRequestedOneAcrossTheSeam) {
   for (const char* name : kCases) {
     GrooveSpec spec = groove_case(name);
     spec.area_in = AreaIn::normal;
@@ -359,7 +359,7 @@ TEST(GrooveProof, PassesOnRandomJoints) {
   }
 }
 
-TEST(GrooveProof, ANumberThatIsNoneFails) {
+TEST(GrooveProof, NanFails) {
   const auto found = groove(good());
   Groove bad = *found;
   bad.sections[1].p2.y() = std::numeric_limits<double>::quiet_NaN();

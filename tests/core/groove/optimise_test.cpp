@@ -101,7 +101,7 @@ double by_simplex(const Bench& bench, int& evaluations) {
   return simplex.at(at);
 }
 
-TEST(Chebyshev, NotWorseThanARestartedSimplexAndAnnealingBesideIt) {
+TEST(Chebyshev, NotWorseThanARestartedSimplexAndAnnealing) {
   Benches benches{32};
   int simplex_evaluations = 0, annealing_evaluations = 0, evaluations = 0, annealed = 0;
   double mean[3] = {}, seconds[2] = {}, most_ratio = 0.0;
@@ -239,7 +239,7 @@ TEST(Annealing, IsRepeatableAndStops) {
   EXPECT_EQ(stopped.error(), ErrorCode::cancelled);
 }
 
-TEST(Annealing, CasesBesideThePublishedFigures) {
+TEST(Annealing, CasesMatchThePublishedFigures) {
   // 8.5 gives .0148/.0345, .0178/.0281, .0408/.1220 mm for the same objective with another
   // generator and other moves.
   for (const char* name : kCases) {

@@ -29,7 +29,7 @@ class Probes : public ::testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(Cases, Probes,
                          ::testing::Values("A_source_like", "B_near_equal", "C_oblique_offset"));
 
-TEST_P(Probes, WhereThePathTouchesTheDistanceIsItsGap) {
+TEST_P(Probes, TheDistanceAtAContactIsItsGap) {
   std::vector<ProbePoint> points;
   std::vector<double> before, after;
   for (std::size_t k = 0; k < path.positions.size(); k += 37) {

@@ -105,7 +105,7 @@ double filler_by_quadrature(const GrooveSpec& spec, const GrooveSection& s) {
   return to_edge + to_toe - chord;
 }
 
-TEST(GrooveSections, AreaByQuadratureIsTheAskedAreaOnRandomJoints) {
+TEST(GrooveSections, AreaByQuadratureIsTheRequestedAreaOnRandomJoints) {
   RandomJoints joints{11};
   double worst = 0.0;
   for (int i = 0; i < 1000; ++i) {

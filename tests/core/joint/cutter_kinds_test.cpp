@@ -325,7 +325,7 @@ TEST(CutterKinds, AreTheOraclesSolids) {
 }
 
 /// At a corner both sides' hits are the limits of the adjacent ones; elsewhere they are the hit.
-TEST(CutterKinds, TellBothSidesOfACorner) {
+TEST(CutterKinds, DistinguishBothSidesOfACorner) {
   const double rho = 40.0;
   for (const double offset : {12.0, -12.0, 0.0}) {
     const TubeCutter tube{.radius = rho + std::abs(offset),

@@ -239,7 +239,7 @@ TEST(ElbowLeg, OfABevelTableIsProved) {
 
 // If the run goes up inside the kept tube's wall, there is no end to cut, and the refusal reports
 // it.
-TEST(ElbowLeg, IsRefusedWhereTheRunRisesWithin) {
+TEST(ElbowLeg, IsRefusedIfTheRunRisesWithin) {
   Random random;
   for (int n = 0; n < 200; ++n) {
     auto c = random.leg(false);

@@ -45,7 +45,7 @@ NodeSpec k_joint(double apart) {
 
 // On the chord's crown line both braces' outer surfaces are straight lines at 45 deg, 57.15 sqrt 2
 // from their feet: the toes touch if those meet on the crown, 2 (109.55 - 57.15 sqrt 2) before.
-TEST(Overlap, ToesTouchWhereGeometrySays) {
+TEST(Overlap, ToesTouchAtTheComputedDistance) {
   const double touching = 2.0 * (57.15 * std::sqrt(2.0) - 109.55);
   EXPECT_TRUE(found(k_joint(touching + 0.1)).empty());
   EXPECT_TRUE(found(k_joint(touching + 60)).empty());
@@ -80,7 +80,7 @@ TEST(Overlap, AMemberModelledTwiceIsReportedOnce) {
   EXPECT_EQ(warnings_of(spec, all, 2).size(), 1U);
 }
 
-TEST(Overlap, AThirdThatMeetsTwoIsSaidOfEachPair) {
+TEST(Overlap, AThirdMemberIsReportedForEachPair) {
   NodeSpec spec{.members = {brace("A", 0, 1), tube("B", {400, 0, -500}, {400, 0, 1500}, 88.9, 5),
                             tube("D", {-500, 0, 900}, {1500, 0, 900}, 60.3, 4)},
                 .connect = Within{1.0}};
@@ -201,7 +201,7 @@ void expect_one_too_many(std::size_t members, std::size_t most) {
   EXPECT_EQ(std::get<double>(issue.got), static_cast<double>(most) + 1.0);
 }
 
-TEST(Overlap, TellsNoMorePairsThanItMay) {
+TEST(Overlap, ReportsAtMostTheLimitOfPairs) {
   expect_one_too_many(101, kMostOverlaps);
   EXPECT_EQ(found(crossed(20)).size(), 190U);
 }
@@ -209,7 +209,7 @@ TEST(Overlap, TellsNoMorePairsThanItMay) {
 // Counted before any is looked at: these would share metal 5 000 times first.
 TEST(Overlap, LooksAtNoMorePairsThanItMay) { expect_one_too_many(1415, kMostNearPairs); }
 
-TEST(Overlap, StopsWhenAsked) {
+TEST(Overlap, StopsOnRequest) {
   std::stop_source stop;
   stop.request_stop();
   const auto spec = k_joint(0);

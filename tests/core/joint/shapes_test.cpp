@@ -500,7 +500,7 @@ TEST(Shapes, ARoundBoxAndAStraightConeAreTubes) {
   }
 }
 
-TEST(Shapes, WhatCannotBeAPartnerIsNamed) {
+TEST(Shapes, ImpossiblePartnersAreNamed) {
   const auto code = [](const Cutter& cutter) {
     const auto made = under("cutters/0", prepare(cutter));
     return made ? std::string("ok")

@@ -241,7 +241,7 @@ void hold_many(Pair (*draw_pair)(Draw&), std::uint64_t seed, int rounds) {
   EXPECT_GT(counts.clear, rounds / 8);
 }
 
-TEST(SharedMetal, BesideEachOther) { hold_many(beside, 1, 200); }
+TEST(SharedMetal, ParallelTubes) { hold_many(beside, 1, 200); }
 TEST(SharedMetal, CrossingAtAnyAngle) { hold_many(crossed, 2, 200); }
 TEST(SharedMetal, BarsThroughAndInTubes) { hold_many(bar, 3, 150); }
 TEST(SharedMetal, NearlyTouching) { hold_many(touching, 4, 150); }

@@ -38,7 +38,7 @@ void expect_same(double a, double b) {
   EXPECT_EQ(a, b);
 }
 
-TEST(Stations, TellWhatTheirGeneratorsTellOneByOne) {
+TEST(Stations, EqualTheirSingleGenerators) {
   const auto phi = phases(361);
   for (const auto& contour : contours()) {
     const auto stations = stations_at(contour.radius, phi);
@@ -66,7 +66,7 @@ TEST(Stations, TellWhatTheirGeneratorsTellOneByOne) {
   }
 }
 
-TEST(SolidArrays, TellWhatTheSolidTellsOneByOne) {
+TEST(SolidArrays, EqualTheSingleSolids) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> any(-90, 90);
   const auto point = [&] { return Eigen::Vector3d(any(random), any(random), any(random)); };

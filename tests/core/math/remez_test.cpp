@@ -49,7 +49,7 @@ TEST(Remez, APolynomialIsItsOwnAnswer) {
   EXPECT_LE(found->worst, kLevelledFloor);
 }
 
-TEST(Remez, StopsWhenAsked) {
+TEST(Remez, StopsOnRequest) {
   std::stop_source source;
   source.request_stop();
   const auto found =

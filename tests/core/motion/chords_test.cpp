@@ -62,7 +62,7 @@ CutPath closed(bool hole, int points, int first) {
   return out;
 }
 
-TEST(Chords, WhereAContourBeginsChangesNoDepth) {
+TEST(Chords, DepthsDoNotDependOnTheStart) {
   std::mt19937 random(2);
   for (const bool hole : {false, true}) {
     const auto made = part_border(closed(hole, 500, 0), -1.0, {});
@@ -85,7 +85,7 @@ TEST(Chords, WhereAContourBeginsChangesNoDepth) {
   }
 }
 
-TEST(Chords, AStretchIsAsLongAsItsEndsAreApart) {
+TEST(Chords, ASegmentsLengthIsTheDistanceOfItsEnds) {
   std::mt19937 random(3);
   for (int i = 0; i < 200; ++i) {
     Track whole{.radius = 40.0, .closed = true, .turns = 1};

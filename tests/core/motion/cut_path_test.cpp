@@ -156,7 +156,7 @@ TEST(Sectors, LeftAndRightOfAStopJoinToTheWholeCut) {
   }
 }
 
-TEST(Sectors, ABackUpTooShortForANodeIsNone) {
+TEST(Sectors, ATooShortBackUpIsIgnored) {
   ScheduleSpec spec = table1(20);
   spec.motion.sector = Sector{Angle::deg(50), Angle::deg(200), 0.0};
   const auto none = schedule(spec);
@@ -182,7 +182,7 @@ TEST(Starts, AtAnAngle) {
   }
 }
 
-TEST(Starts, AutomaticallyWhereTheTorchStandsUpright) {
+TEST(Starts, AreAtTheUprightTorchByDefault) {
   ScheduleSpec spec = table1(20);
   spec.motion.start.at = Start::At::automatic;
   const Replay path = path_of(spec);

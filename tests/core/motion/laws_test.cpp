@@ -162,7 +162,7 @@ TEST(Laws, WithoutJerkTheOptimumIsReached) {
   for (const Check& check : verify(spec, s)) EXPECT_TRUE(check.passed()) << check.name;
 }
 
-TEST(Laws, AxesWithoutJerkLimitsAreLeftAlone) {
+TEST(Laws, AxesWithoutJerkLimitsAreUnchanged) {
   ScheduleSpec spec = table1(0);
   for (Axis& axis : spec.machine.axes) axis.j_max.reset();
   const Schedule s = planned(spec);

@@ -124,7 +124,7 @@ double deepest(const EverydayCut& cut, const CutPath& contour, const ScheduleSpe
 
 // Refused only where a beam on the lead enters the finished part, B held or followed, and never
 // made where it does.
-TEST(LeadsOnTables, OfThreeHundredEverydayCutsNoneIsBlockedFalsely) {
+TEST(LeadsOnTables, ThreeHundredEverydayCutsAreNeverBlockedFalsely) {
   Dice dice(315);
   int cuts = 0, held = 0, followed = 0, refused = 0;
   double deepest_made = -1.0;

@@ -252,7 +252,7 @@ TEST(Leads, AreTangent) {
   }
 }
 
-TEST(Leads, OvercutGoesOn) {
+TEST(Leads, OvercutContinuesTheCut) {
   ScheduleSpec spec = table1(20);
   spec.motion.lead = Lead{};
   spec.motion.lead->overcut = 7.0;
@@ -290,7 +290,7 @@ CutPath window(double step) {
 
 // Except for rounding: a point next to the last would be that point again, and the path would have
 // no direction there.
-TEST(Leads, OvercutThatEndsAtAPointHasNoneTwice) {
+TEST(Leads, OvercutThatEndsAtAPointRepeatsNoPoint) {
   for (const double step : {0.1, 0.3, 0.7})
     for (int k = 1; k <= 12; ++k) {
       ScheduleSpec spec;

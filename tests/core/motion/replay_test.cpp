@@ -68,7 +68,7 @@ TEST_P(Damaged, OnePulseMore) {
   expect("I2");
   expect("I3");
 }
-TEST_P(Damaged, StartBesideTheFirstPoint) {
+TEST_P(Damaged, StartNextToTheFirstPoint) {
   const std::vector<double> right = good.start;
   for (const auto& [axis, off] : {std::pair{kY, 0.05}, std::pair{kC, 0.1}, std::pair{kB, -0.001}}) {
     good.start = right;

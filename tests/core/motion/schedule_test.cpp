@@ -35,7 +35,7 @@ TEST(Refused, TooManyPeriodsBeforeMemoryIsTaken) {
   EXPECT_EQ(std::get<double>(issue.limit), 8000.0);
 }
 
-TEST(Reports, SayWhereTheTipIsSlow) {
+TEST(Reports, LocateSlowSegments) {
   const Schedule raw = planned(table1(0));
   ASSERT_EQ(raw.report.slow.size(), 5U);  // the five junctions of Table 1
   for (const SlowZone& zone : raw.report.slow) {

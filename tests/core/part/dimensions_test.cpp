@@ -80,7 +80,7 @@ double off(const MeasuredSolid& solid, const part::CheckDimension& d) {
   return best;
 }
 
-TEST(CheckDimensions, EqualWhatIsMeasuredOnTriangles) {
+TEST(CheckDimensions, EqualMeasurementsOnTriangles) {
   double worst = 0;
   std::size_t count = 0;
   std::map<std::string, int> names;
@@ -276,7 +276,7 @@ TEST(CheckDimensions, AProgramForAnotherTubeIsSeen) {
 }
 
 // A mistake changes only the dimensions that name it, so the table can be read backwards.
-TEST(CheckDimensions, OnlyWhatIsNamedChanges) {
+TEST(CheckDimensions, AMistakeChangesOnlyTheNamedDimensions) {
   double worst = 0;
   for (const auto& made : parts(40, 9)) {
     const auto good = given(made.spec, made.part);

@@ -357,7 +357,7 @@ TEST(StatedMitre, TheFacesMeetInOnePlane) {
   EXPECT_LT(edges, kFit);
 }
 
-TEST(StatedMitre, AxesThatMissEachOtherAndDiametersThatDifferAreSaid) {
+TEST(StatedMitre, AWarningReportsAxesThatMissAndUnequalDiameters) {
   Random random{std::mt19937_64(5)};
   auto pair = random_mitre(random, 3.0);
   auto nodes = joint::solve(pair.node);
@@ -478,7 +478,7 @@ TEST(StatedMitre, InOneLineItIsASquareButt) {
   EXPECT_NEAR(made->part.lengths.shortest, 1500 - 1.5, 1e-9);
 }
 
-TEST(StatedJoints, WhatCannotBothBeRightIsRefused) {
+TEST(StatedJoints, ContradictoryJointsAreRejected) {
   Random random{std::mt19937_64(8)};
   const auto good = random_pair(random, JointKind::set_in);
   auto node = good.node;
@@ -511,7 +511,7 @@ TEST(StatedJoints, WhatCannotBothBeRightIsRefused) {
   EXPECT_EQ(end.error().issues.front().member, "start/root_gap");
 }
 
-TEST(StatedJoints, WhatOnlyOneSideWouldDoIsAWarning) {
+TEST(StatedJoints, AJointAppliedToOneSideOnlyIsAWarning) {
   Random random{std::mt19937_64(9)};
   auto pair = random_pair(random, JointKind::set_in);
   auto spec = member_spec(pair, 0);

@@ -361,7 +361,7 @@ double filled(const joint::Target& target, const bevel::Table& t, double root_fa
   return sum;
 }
 
-TEST(Part, GrooveIsWhatRaysFindBetweenCutAndChord) {
+TEST(Part, GrooveEqualsTheVolumeFoundByRays) {
   for (const double inclination : {35.0, 60.0, 90.0})
     for (const double root_face : {0.0, 2.0}) {
       const joint::TubeCutter on{.radius = 60, .inclination = Angle::deg(inclination)};
@@ -401,7 +401,7 @@ TEST(Part, ClockingBetweenTheEnds) {
   EXPECT_NEAR(turn(chord(90, 0), chord(90, -110)), -70.0, 1e-9);
 }
 
-TEST(Part, LongPointsAreWhereTheClockingSays) {
+TEST(Part, LongPointsFollowTheClocking) {
   const auto p = part::part(direct({chord(45, 30)}, {chord(40, 100)}, 900));
   ASSERT_TRUE(p);
   const double turn = p->finish.longest.phi - p->start.longest.phi - p->clocking;
@@ -478,7 +478,7 @@ double drilled_volume(std::vector<double> heights, double from, double to) {
   return sum;
 }
 
-TEST(Part, WhatTwoHolesShareIsTakenOnce) {
+TEST(Part, TheOverlapOfTwoHolesCountsOnce) {
   const double whole = part::part(drilled({}))->lengths.volume;
   for (const double clocking : {0.4, 0.02, 6.27}) {  // the last two across phi = 0
     for (const std::vector<double>& heights : {std::vector<double>{400, 418},
@@ -522,7 +522,7 @@ TEST(Part, AHoleBeyondAnEndIsRefused) {
 }
 
 // Lines that graze the bore: the branch nearly as wide as it, and as wide.
-TEST(Part, TheProofHoldsWhereAHoleGrazesTheBore) {
+TEST(Part, TheVerificationPassesIfAHoleGrazesTheBore) {
   int cut = 0;
   for (const double radius : {40.0, 43.0, 43.5, 43.9, 43.99, 44.0}) {
     for (const auto kind : {bevel::JointKind::set_in, bevel::JointKind::set_on}) {
@@ -541,7 +541,7 @@ TEST(Part, TheProofHoldsWhereAHoleGrazesTheBore) {
   EXPECT_GE(cut, 6);
 }
 
-TEST(Part, TheSameHoleTwiceTakesWhatItTakesOnce) {
+TEST(Part, TheSameHoleTwiceCountsOnce) {
   const auto volume = [](const part::PartSpec& spec) { return part::part(spec)->lengths.volume; };
   const double whole = volume(drilled({})), once = whole - volume(drilled({400}));
   EXPECT_NEAR((whole - volume(drilled({400, 400}))) / once, 1.0, 1e-9);

@@ -133,7 +133,7 @@ TEST(Webs, NameTheirPlaces) {
   EXPECT_NEAR(found.to_seam->girth, 0.0, 0.0);  // both lie across the datum line
 }
 
-TEST(Webs, NothingIsLeftWhereHolesMeetOrReachIntoAnEnd) {
+TEST(Webs, AreZeroIfHolesMeetOrReachIntoAnEnd) {
   const auto meeting = webs(spec(), part_of({egg(1, 100, 20, 0), egg(1.2, 110, 20, 0)}, 400));
   EXPECT_EQ(meeting.between_holes->width, 0.0);
   const auto within = webs(spec(), part_of({egg(1, 100, 20, 0), egg(7.28, 100, 5, 0)}, 400));

@@ -126,7 +126,7 @@ TEST(Stretches, ASquareCutLeavesTheTabsOfItsInnerWall) {
 // For bevels that swing and contours that sway, with leads and without: by brute force no tab is
 // narrower than requested, no tab is wider than a bevel's own difference of the walls explains, and
 // the segments consist of the cut's own points.
-TEST(Stretches, NoTabIsNarrowerThanAskedOnEitherWall) {
+TEST(Stretches, NoTabIsNarrowerThanRequestedOnEitherWall) {
   std::mt19937 draw(20261125);
   const auto of = [&](double from, double to) {
     return std::uniform_real_distribution(from, to)(draw);
@@ -164,7 +164,7 @@ TEST(Stretches, NoTabIsNarrowerThanAskedOnEitherWall) {
 }
 
 // Narrower by 0.1 mm if a segment is longer by that: the verification's own figure sees it.
-TEST(Stretches, AStretchThatGoesOnIsSeen) {
+TEST(Stretches, AnOverlongSegmentIsDetected) {
   const auto cut = ring(10.0, 0.4, 2, 0.7);
   const auto asked = setup(3, 2.0, 4.0);
   auto cuts = laid(cut, asked);
