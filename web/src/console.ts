@@ -16,6 +16,9 @@ import {ask, Latest, path, type Answer, type Endpoint, type Example, type Machin
 
 const firstJob = {endpoint: 'bevel-tables', example: 'source-000-table-1'};
 
+/** Optional fields that a new job has: without `connect` no member of a frame would be cut. */
+const usual: Record<string, Row> = {frames: {connect: {within_mm: 5}}};
+
 /** Runs after the change is drawn. */
 const drawn = (act: () => void) => queueMicrotask(act);
 
@@ -142,7 +145,7 @@ export class Console {
 
   /** The fewest fields that make a job, as the contract has them. */
   blank(): void {
-    this.begin(this.endpoint.value, undefined, this.contract.make(this.schema ?? {}) as Row, true);
+    this.begin(this.endpoint.value, undefined, {...(this.contract.make(this.schema ?? {}) as Row), ...usual[this.endpoint.value]}, true);
     this.formShown.value = true;
     drawn(() => byId('form').querySelector<HTMLElement>('input, select')?.focus());
   }
@@ -156,6 +159,7 @@ export class Console {
       this.item.value = this.lost.value = null;
       this.job.value += 1;
       rest();
+      this.form.tabled = endpoint === 'frames' ? '/members' : undefined;
       this.form.show(this.schema ?? {}, body);
     });
     document.title = `${endpointName(endpoint)} – tubecut`;
@@ -231,7 +235,7 @@ export class Console {
         this.picture.value = picture;
         this.drawnJob = this.job.value;
       }
-    // no picture of another job next to a refusal
+      // no picture of another job next to a refusal
     } else if (this.drawnJob !== this.job.value) this.clear();
     this.told();
   }
@@ -271,6 +275,7 @@ export class Console {
   /** Shows a field of the form. */
   seek(pointer: string): void {
     this.formShown.value = true;
+    this.form.select(pointer);
     drawn(() => this.form.focus(pointer));
   }
 

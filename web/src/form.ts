@@ -1,7 +1,8 @@
 import {signal} from '@preact/signals';
+import {Selection} from './frame/selection';
 import {said} from './hint';
 import {History} from './history';
-import {at, put, type Json, type Row} from './json';
+import {at, clone, put, sharing, type Json, type Row} from './json';
 import type {Contract, Schema} from './schema';
 import type {Issue} from './service';
 
@@ -35,6 +36,9 @@ export class Form {
   readonly echo = signal<Row>({});
   readonly complaints = signal(none);
   readonly folds = new Map<string, boolean>(); // opened or closed by hand, by pointer
+  /** The rows of the list that a table shows in full; the form has the fields of one of them. */
+  readonly selection = new Selection();
+  tabled: string | undefined; // pointer of that list
   private towards: string | undefined;
 
   constructor(
@@ -49,6 +53,7 @@ export class Form {
     this.drawn.value = {schema, body, build: this.drawn.value.build + 1};
     this.echo.value = {}; // of another job
     this.complaints.value = none;
+    this.selection.choose(null);
   }
 
   /**
@@ -59,6 +64,13 @@ export class Form {
     this.body = body;
     this.history.record(body);
     this.redraw(towards);
+  }
+
+  /** One step of several changes, made in a copy. */
+  change(act: (copy: Row) => void): void {
+    const copy = clone(this.body);
+    act(copy);
+    this.replace(sharing(this.body, copy) as Row);
   }
 
   private redraw(towards?: string, {build} = this.drawn.value): void {
@@ -108,6 +120,12 @@ export class Form {
       if (to !== undefined) found.set(to, [...(found.get(to) ?? []), {id: `complaint-${index}`, text: said(issue)}]);
     });
     this.complaints.value = found.size ? found : none;
+  }
+
+  /** Shows the row of the table that a pointer leads into. */
+  select(pointer: string): void {
+    const row = this.tabled && pointer.startsWith(`${this.tabled}/`) ? Number(pointer.slice(this.tabled.length + 1).split('/')[0]) : NaN;
+    if (Number.isInteger(row)) this.selection.choose(row);
   }
 
   /** Brings the field of a pointer, or of its container, into view. */

@@ -41,3 +41,17 @@ function replaced(holder: Json | undefined, [key = '', ...rest]: string[], value
   else row[key] = made;
   return row;
 }
+
+/** The value `now` with every part of `was` that is equal to its own in the place of that part. */
+export function sharing(was: Json | undefined, now: Json): Json {
+  if (was === now || typeof was !== 'object' || typeof now !== 'object' || was === null || now === null) return now;
+  if (Array.isArray(now)) {
+    if (!Array.isArray(was)) return now;
+    const all = now.map((each, i) => sharing(was[i], each));
+    return all.length === was.length && all.every((each, i) => each === was[i]) ? was : all;
+  }
+  if (Array.isArray(was)) return now;
+  const all = Object.fromEntries(Object.entries(now).map(([key, each]) => [key, sharing(was[key], each)]));
+  const names = Object.keys(all);
+  return names.length === Object.keys(was).length && names.every((key) => key in was && all[key] === was[key]) ? was : all;
+}

@@ -24,7 +24,19 @@ export function point(link: string, index: number | null): void {
 /** The selection stays when the cursor leaves: a separate group. */
 export const chosen = (link: string) => `${link}, chosen`;
 
+/** Items that are chosen together with that of the cursor, for example rows of a table. */
+const together = new Map<string, number[]>();
+export const chosenTogether = (link: string): number[] => together.get(link) ?? [];
+export function chooseTogether(link: string, items: number[]): void {
+  if (chosenTogether(link).join() === items.join()) return;
+  together.set(link, items);
+  groups.get(chosen(link))?.forEach((listener) => listener(pointed(chosen(link))));
+}
+
 /** Nothing is pointed at, nor chosen. */
-export const rest = () => [...groups.keys()].forEach((link) => point(link, null));
+export const rest = () => {
+  together.clear();
+  for (const link of groups.keys()) point(link, null);
+};
 
 export const pointed = (link: string) => last.get(link) ?? null;

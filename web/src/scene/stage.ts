@@ -15,7 +15,7 @@ import {
   type Object3D,
 } from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
-import {chosen, listen, point, pointed} from '../links';
+import {chosen, chosenTogether, listen, point, pointed} from '../links';
 import type {Solid, Vector} from '../picture';
 import {Labels} from './labels';
 import {Members} from './members';
@@ -203,7 +203,8 @@ export class Stage {
 
   /** The members that are chosen, and those pointed at. */
   private lit(members: Members, link: string): [Set<number>, Set<number>] {
-    return [members.of(pointed(chosen(link))), members.of(pointed(link))];
+    const all = [pointed(chosen(link)), ...chosenTogether(link)].flatMap((item) => [...members.of(item)]);
+    return [new Set(all), members.of(pointed(link))];
   }
 
   private light(): void {

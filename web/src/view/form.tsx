@@ -1,6 +1,7 @@
 import {Fragment, type ComponentChildren} from 'preact';
 import {useLayoutEffect, useRef} from 'preact/hooks';
 import {roomy, runsOf, type Form} from '../form';
+import {freeName} from '../frame/members';
 import {called, hintOf} from '../hint';
 import {at, isRow, join, put, type Json, type Row} from '../json';
 import {brief} from '../names';
@@ -175,7 +176,15 @@ function Group({schema, value, pointer, required}: Value & {required: boolean}) 
           <summary title={hintOf(schema, pointer)} data-holds={pointer} {...(own ? told : {})}>
             {sentence(called(pointer))}
           </summary>
-          {value === undefined ? <Offer {...given} /> : schema.type === 'array' ? <List {...given} value={value} /> : <Parts {...given} />}
+          {value === undefined ? (
+            <Offer {...given} />
+          ) : pointer === form.tabled ? (
+            <ChosenRow {...given} value={value} />
+          ) : schema.type === 'array' ? (
+            <List {...given} value={value} />
+          ) : (
+            <Parts {...given} />
+          )}
         </details>
         {!required && <Remover name={called(pointer)} pointer={pointer} act={() => form.put(pointer, undefined)} />}
       </div>
@@ -205,8 +214,10 @@ function List({schema, value, pointer}: Value & {value: Json}) {
   const add = (branch: Schema) => {
     const typed = at(form.body, pointer); // what is drawn may be older
     const own = Array.isArray(typed) ? typed : [];
-    const next = [...own, contract.make(branch, branch === kinds[last] ? own[last] : undefined)];
-    form.replace(put(form.body, pointer, next), join(pointer, own.length));
+    const made = contract.make(branch, branch === kinds[last] ? own[last] : undefined);
+    const named =
+      isRow(made) && typeof made['id'] === 'string' ? {...made, id: freeName(new Set(own.map((each) => String(at(each, '/id')))), made['id'])} : made;
+    form.replace(put(form.body, pointer, [...own, named]), join(pointer, own.length));
   };
   const flat = (kind: Schema) => Object.values(kind.properties ?? {}).every((each) => simple(form, contract.resolve(each)));
   return (
@@ -238,6 +249,31 @@ function List({schema, value, pointer}: Value & {value: Json}) {
           );
         })}
       </div>
+    </>
+  );
+}
+
+/** Of a list that a table shows in full: the fields of the row that is chosen there, else of the first. */
+function ChosenRow({schema, value, pointer}: Value & {value: Json}) {
+  const form = useForm();
+  const items = Array.isArray(value) ? value : [];
+  const {row} = form.selection;
+  const at = Math.min(row.value ?? 0, items.length - 1);
+  if (at < 0) return <p class="soft">Add one in the table.</p>;
+  return (
+    <>
+      <p class="walker">
+        <button type="button" aria-label="Previous row" title="Show the previous row" disabled={at === 0} onClick={() => form.selection.choose(at - 1)}>
+          ‹
+        </button>
+        <span class="soft">
+          {at + 1} of {items.length}; all of them are in the table
+        </span>
+        <button type="button" aria-label="Next row" title="Show the next row" disabled={at === items.length - 1} onClick={() => form.selection.choose(at + 1)}>
+          ›
+        </button>
+      </p>
+      <Parts key={at} schema={schema.items ?? {}} value={items[at]} pointer={join(pointer, at)} />
     </>
   );
 }

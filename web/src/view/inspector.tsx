@@ -47,7 +47,7 @@ export function Inspector({given, item, ways}: {given: Inspected; item: number |
       <TabBar offered={lists.map(({id, title, items}) => [id, `${title} (${items.length})`])} chosen={shown.id} choose={turn} label="Lists" panel="items" />
       <List link={link} title={shown.title} items={shown.items.slice(0, most)} first={start(shown.id)} />
       {shown.items.length > most && <p class="soft">{`The first ${most} of ${shown.items.length}; the others are chosen in the picture.`}</p>}
-      <div class="facts" aria-live="polite">
+      <div class="facts" aria-live="polite" tabIndex={0} role="group" aria-label="What is chosen">
         {told ? <Facts item={told} link={link} ways={ways} /> : <p class="soft">Choose one in the list or in the picture.</p>}
       </div>
     </>

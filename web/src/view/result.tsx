@@ -6,6 +6,7 @@ import {TabBar} from './controls';
 import {Downloads} from './downloads';
 import {Exchange} from './exchange';
 import {Inspector} from './inspector';
+import {MembersTable} from './members';
 import {Motion} from './motion';
 import {useConsole} from './page';
 import {Player} from './player';
@@ -38,6 +39,7 @@ export function Result() {
         <Onward />
       </nav>
       <Pictures />
+      {console.endpoint.value === 'frames' && <MembersTable />}
       <div id="details">{reply.value && <Details />}</div>
     </>
   );

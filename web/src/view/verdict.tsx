@@ -4,6 +4,7 @@ import type {Json} from '../json';
 import {tried} from '../key';
 import {away, holds, type Answer, type Check, type Problem, type Reply, type Warning} from '../service';
 import {beside, check as checkName, choice, place, plain, residual, sentence, spelled} from '../words';
+import {FrameWarnings} from './frame_warnings';
 import {Unlock} from './unlock';
 
 type Focus = (pointer: string) => void;
@@ -95,6 +96,7 @@ function Approval({answer, milliseconds, focus, facts}: {answer: Answer; millise
   // A note does not affect the verdict: it is shown on demand.
   const notes = answer.warnings.filter((warning) => warning.severity === 'note');
   const told = (given: Warning[]) => given.map((warning, i) => <Told key={i} warning={warning} focus={focus} />);
+  const grouped = answer.job.endpoint === 'frames' && warnings.length > 0;
   return (
     <div class={`verdict ${tone}`}>
       <p>
@@ -107,12 +109,13 @@ function Approval({answer, milliseconds, focus, facts}: {answer: Answer; millise
         <span>{passed ? `${total} of ${total} checks of its own proof hold` : `${Math.max(1, failed.length)} of ${total} checks failed`}</span>
         <span class="right">answered in {milliseconds.toFixed(0)} ms</span>
       </p>
-      {failed.length + warnings.length + unnamed.length > 0 && (
+      {grouped && <FrameWarnings warnings={warnings} />}
+      {failed.length + (grouped ? 0 : warnings.length) + unnamed.length > 0 && (
         <ul>
           {failed.map((check) => (
             <li key={check.name}>{overLimit(check)}</li>
           ))}
-          {told(warnings)}
+          {!grouped && told(warnings)}
           {unnamed.map((reason) => (
             <li key={reason}>{sentence(choice(reason))}</li>
           ))}
