@@ -143,8 +143,16 @@ struct Example {
 };
 [[nodiscard]] std::vector<Example> examples();
 
-/// "0.1.0", and the integer raised with every change of a result bit.
+/// "0.1.0", the commit that the binary is built from ("1a2b3c4d5e6f"; empty if the build does not
+/// know it), and the integer that is raised with every change of a result bit.
 [[nodiscard]] std::string_view version();
+[[nodiscard]] std::string_view commit();
 [[nodiscard]] int numerics();
+
+/// "tubecut 0.1.0 (1a2b3c4d5e6f)": names the build in answers, logs and machine files.
+[[nodiscard]] inline std::string engine() {
+  const std::string of = commit().empty() ? "" : " (" + std::string(commit()) + ")";
+  return "tubecut " + std::string(version()) + of;
+}
 
 }  // namespace tubecut::api

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <exception>
 
+#include "server/http/coding.hpp"
 #include "server/http/static_files.hpp"
 #include "server/identity.hpp"
 #include "server/jobs/job_memory.hpp"
@@ -91,6 +92,20 @@ bool asks_preflight(const Request& request) {
          !header(request.headers, "Access-Control-Request-Method").empty();
 }
 
+/// What is wrong with the media type of a body that waits for "100 Continue". Others are refused
+/// with their bodies.
+std::optional<Refusal> media_fault(const Request& head) {
+  const auto endpoint = api::endpoint_at(path_of(head.target));
+  if (header(head.headers, "Expect").empty() || head.method != "POST" || endpoint.empty())
+    return std::nullopt;
+  const std::string_view wanted =
+      endpoint == "batches" ? "application/x-ndjson" : "application/json";
+  auto media = header(head.headers, "Content-Type");
+  media = media.substr(0, media.find_first_of("; \t"));
+  if (equal_ignoring_case(media, wanted)) return std::nullopt;
+  return Refusal{ErrorCode::unsupported_media_type, fmt::format("Send the body as {}.", wanted)};
+}
+
 Headers answer_headers(const api::Outcome& outcome, const Identity& id, int status) {
   Headers headers;
   for (const auto& [name, value] : outcome.headers) {
@@ -125,7 +140,11 @@ std::optional<Refusal> App::screen(const Request& head) const {
   if (!std::ranges::all_of(head.target, visible)) {
     return Refusal{ErrorCode::bad_request, "The target holds a byte that is not visible ASCII."};
   }
-  if (!called_by(header(head.headers, "Host"), x_.hosts)) {
+  for (const auto* once : {"Content-Type", "X-Api-Key"})
+    if (header_values(head.headers, once).size() > 1)
+      return Refusal{ErrorCode::bad_request, fmt::format("{} is sent more than once.", once)};
+  const bool names_host = !header_values(head.headers, "Host").empty();  // HTTP/1.0 may not
+  if (names_host && !called_by(header(head.headers, "Host"), x_.hosts)) {
     return Refusal{ErrorCode::bad_request, std::string(kForeignHost)};
   }
   const auto encoding = header(head.headers, "Content-Encoding");
@@ -139,6 +158,7 @@ std::optional<Refusal> App::screen(const Request& head) const {
                                kBudgetHeader)};
   }
   if (auto fault = job_name_fault(head.headers)) return fault;
+  if (auto fault = media_fault(head)) return fault;
   if (!x_.access || asks_preflight(head)) return std::nullopt;
   const auto identity = x_.access->identify(head.headers);
   return identity ? std::nullopt : std::optional(identity.error());
@@ -290,6 +310,8 @@ Response App::handle(const Request& request) const {
   }
   allow_origin(request, response.headers);
   add_if(response.headers, "Tubecut-Replica", x_.replica);
+  revalidate(request, response);
+  compress(request, response);
   record.seconds = steady_seconds() - start;
   if (request.used_cpu) record.cpu = std::chrono::duration<double>(request.used_cpu()).count();
   record.facts = std::move(outcome.job);

@@ -113,7 +113,7 @@ BatchReply App::answer_line(const Request& request) const {
                      .begun = steady_seconds()};
     x_.started();
     x_.finished(record);
-    x_.sent(record);
+    if (request.logged) x_.sent(record);
     return {api::print_batch_line(line, request.line, {.status = status, .content = line.problem}),
             true, true};
   }

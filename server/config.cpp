@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <fstream>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "api/api.hpp"
+#include "api/wire/field_names.hpp"
 #include "server/access.hpp"
 
 namespace tubecut::server {
@@ -45,7 +47,7 @@ void add_network(CLI::App& app, Config& c) {
   const CLI::Range port(0, 65535);
   option(app, "host", c.host, "address to listen on; 0.0.0.0 in a container");
   option(app, "port", c.port, "port of the service; 0 takes a free one")->check(port);
-  option(app, "admin-host", c.admin_host, "address of the admin port; empty: as --host");
+  option(app, "admin-host", c.admin_host, "address of the admin port");
   option(app, "admin-port", c.admin_port, "port of /livez, /readyz, /metrics; 0 takes a free one")
       ->check(port);
   option(app, "keys", c.keys, "file of API keys, one \"identity sha256 [rate]\" a line");
@@ -188,6 +190,29 @@ std::string contradiction(const Config& c) {
   return {};
 }
 
+/// The first TUBECUT_ variable of the environment that names no option but nearly does, and the one
+/// that it means. Other programs have variables of that prefix too, so the rest is theirs.
+std::string misspelled_variable(const CLI::App& app) {
+  constexpr std::string_view kPrefix = "TUBECUT_";
+  std::vector<std::string> known{"CONFIG"};
+  for (const auto* option : app.get_options())
+    if (const auto& name = option->get_envname(); name.starts_with(kPrefix))
+      known.push_back(name.substr(kPrefix.size()));
+  const auto others = {"KEY", "URL"};  // of the clients
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    if (!text.starts_with(kPrefix)) continue;
+    const auto name = text.substr(kPrefix.size(), text.find('=') - kPrefix.size());
+    const auto is_name = [&](std::string_view one) { return one == name; };
+    if (std::ranges::any_of(known, is_name) || std::ranges::any_of(others, is_name)) continue;
+    if (name.size() == 5 || name.size() == 6) continue;  // too many words are two letters apart
+    if (const auto meant = api::slip_of(name, known); !meant.empty())
+      return fmt::format("{0}{1} in the environment names no option; {0}{2} does", kPrefix, name,
+                         meant);
+  }
+  return {};
+}
+
 }  // namespace
 
 tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
@@ -195,8 +220,7 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
   Config& c = command.config;
   bool print = false;
   CLI::App app{"tubecut: cuts and bevels of tube joints over HTTP", "tubecut-server"};
-  app.set_version_flag("--version",
-                       fmt::format("tubecut {} (numerics {})", api::version(), api::numerics()));
+  app.set_version_flag("--version", fmt::format("{}, numerics {}", api::engine(), api::numerics()));
   add_network(app, c);
   add_limits(app, c);
   add_file(app);
@@ -215,10 +239,11 @@ tl::expected<Command, Exit> read_command(int argc, const char* const* argv) {
   const auto file = app.get_config_ptr()->as<std::string>();
   if (const int line = nameless_line(file); line > 0)
     return tl::unexpected(Exit{2, {}, fmt::format("{}: line {} sets nothing\n", file, line)});
+  if (auto why = misspelled_variable(app); !why.empty())
+    return tl::unexpected(Exit{2, {}, why + '\n'});
   for (auto* list : {&c.cors_origins, &c.trusted_proxies, &c.hosts}) std::erase(*list, "");
   if (auto why = contradiction(c); !why.empty()) return tl::unexpected(Exit{2, {}, why + '\n'});
   if (print) return tl::unexpected(Exit{0, app.config_to_str(true, false), {}});
-  if (c.admin_host.empty()) c.admin_host = c.host;
   if (c.replica.empty()) c.replica = host_name();
   for (const auto& [kind, parsed] : commands)
     if (parsed->parsed()) command.kind = kind;

@@ -12,8 +12,8 @@ namespace tubecut::server {
 /// Everything that can be set, with its default. Read and checked once, at start.
 struct Config {
   std::string host = "127.0.0.1";
-  int port = 8080;         // 0: any free one, named in the ready line
-  std::string admin_host;  // empty: as host
+  int port = 8080;  // 0: any free one, named in the ready line
+  std::string admin_host = "127.0.0.1";
   int admin_port = 9090;
   std::string machines;  // folder of the user's machines; empty: not used
   std::string posts;     // the same of posts

@@ -38,8 +38,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kOwnDescriptors = 64;  // ports, logs, job files, and connections that the kernel has
-                                     // accepted
+constexpr int kOwnDescriptors = 64;  // ports, logs, job files, and what the kernel has accepted
+constexpr auto kLastProbe = 100ms;   // to be answered while the admin port closes
 constexpr auto kLogPatience = 1s;    // for a line that should be read before going on
 
 std::chrono::milliseconds ms(double seconds) {
@@ -93,7 +93,7 @@ int connections_of(int wanted) {
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
   limit.rlim_cur = limit.rlim_max;
   setrlimit(RLIMIT_NOFILE, &limit);
-  const auto own = std::min<rlim_t>(kOwnDescriptors + AdminPort::kConnections, limit.rlim_cur / 2);
+  const auto own = std::min<rlim_t>(kOwnDescriptors + kAdminConnections, limit.rlim_cur / 2);
   return static_cast<int>(std::min<rlim_t>(static_cast<rlim_t>(wanted), limit.rlim_cur - own));
 }
 
@@ -141,6 +141,7 @@ int fail(std::string_view why, int code = 1) {
 /// process.
 void stop_work(Transport& work, const std::future<bool>& served, std::stop_source& jobs,
                const Config& c) {
+  work.close_connections();
   std::this_thread::sleep_for(ms(c.drain_delay_s));
   work.drain(ms(c.drain_s));
   if (finished(served, ms(c.drain_s))) return;
@@ -322,7 +323,7 @@ int serve(const Config& c) noexcept {
   if (const auto wrong = run.access->load(); !wrong.empty()) return fail(wrong, kRefusedToStart);
   auto work = Transport::open(port, service_of(*run.app));
   if (!work) return fail(work.error());
-  auto probes = AdminPort::open(c.admin_host, c.admin_port, run.admin_sources(c));
+  auto probes = open_admin_port(c.admin_host, c.admin_port, run.admin_sources(c));
   if (!probes) return fail(probes.error());
   run.work = &*work;
 
@@ -330,7 +331,7 @@ int serve(const Config& c) noexcept {
   await_serving(*probes, probes_served);
   if (finished(probes_served, 0s)) probes_served.get();  // rethrows its exception
   if (const auto fault = selftest_fault(); !fault.empty()) {
-    probes->stop();
+    probes->drain(0ms);
     return fail(fault);
   }
   run.log.write(ready_line(work->port(), probes->port(), api::version()));
@@ -344,7 +345,7 @@ int serve(const Config& c) noexcept {
   signals.wait([&] { run.reload(c); });
   run.stopping();
   stop_work(*work, work_served, run.jobs, c);
-  probes->stop();
+  probes->drain(kLastProbe);
   const bool sound = work_served.get() && probes_served.get();
   run.log.flush(kLogPatience);
   return sound ? 0 : fail("listening broke down");

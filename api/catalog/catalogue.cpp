@@ -11,6 +11,7 @@
 #include "api/cost.hpp"
 #include "api/endpoint.hpp"
 #include "api/limits.hpp"
+#include "api/wire/problem.hpp"
 #include "api/wire/warning_names.hpp"
 
 namespace tubecut::api {
@@ -18,12 +19,14 @@ namespace {
 
 constexpr std::string_view kJson = "application/json";
 
-std::string print_errors() {
+std::string print_errors(const Context& context) {
   Writer out;
-  out.object([](Writer& w) {
-    w.array("errors", all_errors(), [](Writer& each, const ErrorInfo& error) {
+  out.object([&](Writer& w) {
+    w.array("errors", all_errors(), [&](Writer& each, const ErrorInfo& error) {
       each.object([&](Writer& o) {
         o.field("code", error.code);
+        o.field("status", context.status(error.kind));
+        o.field("retryable", retryable(error.kind));
         o.field("meaning", error.meaning);
         o.field("action", error.action);
       });
@@ -40,8 +43,9 @@ std::string print_errors() {
   return out.take();
 }
 
-std::string errors_page(const Context& /*context*/) {
-  static const std::string page = print_errors();  // the same for ever: 20 kB of text to escape
+std::string errors_page(const Context& context) {
+  static const std::string page =
+      print_errors(context);  // the same for ever: 20 kB of text to escape
   return page;
 }
 
@@ -90,8 +94,9 @@ std::string limits_page(const Context& context) {
 std::string version_page(const Context& /*context*/) {
   Writer out;
   out.object([](Writer& w) {
-    w.field("engine", "tubecut " + std::string(version()));
+    w.field("engine", engine());
     w.field("version", version());
+    w.field("commit", commit());
     w.field("numerics", numerics());
     w.field("configuration_sha256", configuration_sha256());
     encode_machine_hashes(w);

@@ -28,7 +28,7 @@ void write_head(Writer& w, std::string_view endpoint, std::string_view job_id, c
   w.object("job", [&](Writer& o) {
     o.field("id", job_id);
     o.field("endpoint", endpoint);
-    o.field("engine", "tubecut " + std::string(version()));
+    o.field("engine", engine());
     o.field("numerics", numerics());
     o.field("input_sha256", answer.input_sha256);
     o.field("result_sha256", answer.result_sha256);

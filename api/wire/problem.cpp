@@ -12,10 +12,6 @@
 namespace tubecut::api {
 namespace {
 
-bool retryable(ErrorKind kind) {
-  return kind == ErrorKind::overloaded || kind == ErrorKind::unavailable;
-}
-
 Json shown(const Shown& shown) {
   if (const auto* d = std::get_if<double>(&shown))
     return std::isfinite(*d) ? Json{*d} : Json{"not a finite number"};
@@ -72,6 +68,10 @@ FieldIssue in_own_unit(FieldIssue issue) {
 }
 
 }  // namespace
+
+bool retryable(ErrorKind kind) {
+  return kind == ErrorKind::overloaded || kind == ErrorKind::unavailable;
+}
 
 std::string pointer_of(std::string_view member, const Json& request) {
   std::string pointer;

@@ -25,6 +25,9 @@ struct Problem {
   std::vector<Warning> suspicions = {};  // of units that may be why; members are pointers
 };
 
+/// Returns whether the same request may succeed a second later.
+[[nodiscard]] bool retryable(ErrorKind kind);
+
 /// Field issues as one problem: their own code when they agree on it, else `invalid_request`.
 [[nodiscard]] Problem field_problem(std::vector<FieldIssue> issues);
 

@@ -997,10 +997,13 @@ def _document_of(members: Mapping[str, Tuple[Any, int, int]]) -> bytes:
 
 
 def _line_of(reply: http.client.HTTPResponse) -> str:
-    line = reply.readline()
-    if not line.endswith(b"\n"):
-        raise _Down("the answer broke off before its summary")
-    return line.decode("utf-8").strip()
+    """The next line; blank ones only say that the service still works."""
+    while True:
+        line = reply.readline()
+        if not line.endswith(b"\n"):
+            raise _Down("the answer broke off before its summary")
+        if text := line.decode("utf-8").strip():
+            return text
 
 
 def _refusal(reply: _Reply) -> Exception:

@@ -20,9 +20,11 @@ constexpr double kTurnS = 0.004;
 constexpr std::size_t kAhead = 8;
 constexpr auto kAskAgain = 20ms;  // a full queue, memory in use, or the key's rate
 constexpr auto kLook = 50ms;      // whether the client is still there
-/// Number of malformed lines after which the batch ends, because each costs an answer and a log
-/// line, many times its own bytes.
-constexpr std::size_t kMalformed = 100;
+/// Lines that are not jobs, after which further ones are answered and counted but not logged,
+/// because a line of log is many times as long as such a line.
+constexpr std::size_t kLogged = 100;
+/// A gateway cuts off an answer that is silent for longer, so a blank line follows.
+constexpr auto kSilence = 5s;
 constexpr std::size_t kReadAtOnce = 64u << 10;
 constexpr std::size_t kScanAtOnce = 256u << 10;  // bytes looked through in one turn
 
@@ -151,6 +153,7 @@ Task<void> Batch::answer_lines() {
     stopped_ = stopped_ || port_.draining;
     take_finished();
     refuse_late();
+    break_silence();
     send();
     begin_lines();
     if (stopped_ && on_.jobs_.empty()) co_return;
@@ -172,7 +175,7 @@ void Batch::take_finished() {
   std::erase_if(on_.jobs_, [this](const auto& job) {
     if (job->finished && job->answer.bytes.empty()) throw Session::Gone{};
     if (job->finished) answer_line(job->answer.bytes, job->refused);
-    if (job->finished && job->malformed && ++malformed_ == kMalformed) stopped_ = true;
+    if (job->finished && job->malformed) ++malformed_;
     return job->finished;
   });
 }
@@ -213,6 +216,7 @@ std::shared_ptr<Job> Batch::job_of(std::string_view line) const {
   job->request = head_;
   job->request.body = line;
   job->request.line = line_ + 1;
+  job->request.logged = malformed_ < kLogged;
   job->request.stop = job->stop.get_token();
   job->request.times.read = job->request.times.received = seconds(Clock::now());
   job->owner = on_.weak_from_this();
@@ -320,6 +324,14 @@ void Batch::answer_line(std::string_view text, bool refused) {
     on_.out_ += text;
   }
   count_.bytes_out += text.size();
+  spoke_ = Clock::now();
+}
+
+void Batch::break_silence() {
+  if (Clock::now() < spoke_ + kSilence) return;
+  on_.out_ += chunked_ ? print_chunk("\n") : "\n";
+  ++count_.bytes_out;
+  spoke_ = Clock::now();
 }
 
 /// The client must take the pending output within the time for an answer; the limit is not per
@@ -343,7 +355,7 @@ void Batch::send() {
 }
 
 Clock::time_point Batch::due() const {
-  auto when = std::min({stalled_, again_, on_.gone_by_});
+  auto when = std::min({stalled_, again_, on_.gone_by_, spoke_ + kSilence});
   for (const auto& job : on_.jobs_) when = std::min(when, job->due);
   return when;
 }

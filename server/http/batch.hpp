@@ -40,6 +40,8 @@ class Batch {
   void begin_time(Job& job, bool ahead);
   void refuse(const std::shared_ptr<Job>& job);
   void answer_line(std::string_view text, bool refused);
+  /// Sends a blank line if nothing was sent for long.
+  void break_silence();
   void send();
   [[nodiscard]] Clock::time_point due() const;
 
@@ -51,7 +53,7 @@ class Batch {
   MemoryShare held_;           // for it
   std::size_t at_ = 0;         // of the next line
   std::size_t line_ = 0;       // lines begun
-  std::size_t malformed_ = 0;  // lines that were no jobs
+  std::size_t malformed_ = 0;  // lines that were not jobs
   bool stopped_ = false;       // no further line begins
   bool chunked_ = true;        // the answer; else the connection's end ends it (HTTP/1.0)
   BatchCount count_;
@@ -61,8 +63,8 @@ class Batch {
   std::size_t owed_ = 0;  // bytes the client has to take until `stalled_`
   std::optional<Clock::time_point> waits_since_;          // for memory
   Clock::time_point stalled_ = Clock::time_point::max();  // when a client too slow is cut off
-  Clock::time_point again_ = Clock::time_point::max();    // time of the next attempt at a full
-                                                          // queue
+  Clock::time_point spoke_ = Clock::now();                // when the last line was sent
+  Clock::time_point again_ = Clock::time_point::max();    // when a full queue is asked again
 };
 
 }  // namespace tubecut::server

@@ -15,13 +15,18 @@ bool whole_number(std::string_view text) {
          std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Returns whether the text is host [":" port], without characters that another program could read
-/// as an authority, a list or a path.
+/// host [":" port], without what could be taken for another authority, a list or a path. The host
+/// is not empty, and the port is a number.
 bool sound_host(std::string_view host) {
-  return std::ranges::none_of(host, [](char c) {
+  const bool clean = std::ranges::none_of(host, [](char c) {
     return c <= ' ' || c == 0x7f ||
            std::string_view("@/\\?#,\"<>").find(c) != std::string_view::npos;
   });
+  const auto name = host.starts_with('[') ? host.find(']') + 1 : host.find(':');
+  if (name == 0) return false;  // no name, or a bracket that is not closed
+  const auto port = name < host.size() ? host.substr(name) : std::string_view(":");
+  return clean && !host.empty() && port.starts_with(':') && port.size() <= 6 &&
+         port.find_first_not_of("0123456789", 1) == port.npos;
 }
 
 std::string_view length_fault(const Headers& headers) {

@@ -45,7 +45,8 @@ struct Request {
   std::stop_token stop = {};            // ends the job: over its budget, or nobody waits for it
   Times times = {};
   bool reports_sending = false;  // the transport will call `Response::sent`
-  std::size_t line = 0;          // of a batch, from 1; 0: a single request
+  std::size_t line = 0;          // of a batch, from 1; 0: a request by itself
+  bool logged = true;            // a line of a batch that is not a job: whether it is logged
   Turns turns = in_order;        // by whom pieces of the job are done
   /// CPU that all threads have had for it since a slot began it; empty: no slot did.
   std::function<std::chrono::nanoseconds()> used_cpu = {};

@@ -187,6 +187,10 @@ bool Transport::serve() {
 bool Transport::serving() const { return x_->serving; }
 TransportStats Transport::stats() const { return x_->port.stats(); }
 
+void Transport::close_connections() {
+  x_->port.tell([this] { x_->port.close_connections(); });
+}
+
 void Transport::drain(std::chrono::milliseconds patience) {
   if (!x_->serving) return;
   auto closed = std::make_shared<std::promise<void>>();

@@ -350,7 +350,13 @@ bool Port::make_memory(std::size_t bytes) {
 
 void Port::keep_memory_free() { static_cast<void>(make_memory(memory.most() / kKeptFree)); }
 
+void Port::close_connections() {
+  stopping = true;
+  for (const auto& session : sessions_) session->close_after_answer();
+}
+
 void Port::drain(std::chrono::milliseconds patience) {
+  stopping = true;
   draining = true;
   drain_began = Clock::now();
   drained_by = drain_began + patience;

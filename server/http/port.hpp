@@ -48,6 +48,8 @@ class Port {
   /// Takes over an accepted socket.
   void open(Socket socket);
   void forget(Session& session);
+  /// From here on each answer is its connection's last.
+  void close_connections();
   void drain(std::chrono::milliseconds patience);
   /// No more sockets will be opened: `run` may return.
   void end() { ending_ = true; }
@@ -88,8 +90,8 @@ class Port {
   MemoryBound lines;     // of it: batches' lines not yet begun
   Places places;         // of clients
   PortCounters counters;
-  Loop loop;  // declared after the objects of which sessions hold shares, because it may keep the
-              // last of them
+  Loop loop;              // after what sessions hold shares of: it may keep the last of them
+  bool stopping = false;  // soon to be drained
   bool draining = false;
   Clock::time_point drain_began;
   Clock::time_point drained_by = Clock::time_point::max();

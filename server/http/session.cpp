@@ -18,7 +18,8 @@ namespace asio = boost::asio;
 
 constexpr int kReadsPerTurn = 8;      // then another connection's turn
 constexpr int kRequestsPerTurn = 32;  // refused at once, by rate or for want of room
-constexpr auto kFirstByteWhileDraining = 500ms;
+/// A request may be on its way on an idle connection: its answer tells the client to close.
+constexpr auto kNextWhileDraining = 500ms;
 /// A client that still sends reads no answer: its bytes are dropped until it pauses, or is done.
 constexpr auto kLingerTime = 1s;  // of silence
 constexpr std::size_t kLingerBytes = 64u << 20;
@@ -75,7 +76,6 @@ Task<void> Session::live() {
         co_await linger();
         break;
       }
-      fresh_ = false;
       if (++requests_ == kRequestsPerTurn) co_await turn_over();
     }
   } catch (const Gone&) {
@@ -105,7 +105,7 @@ Task<bool> Session::read_request() {
 
 Task<bool> Session::read_head() {
   state_ = State::idle;
-  set_due(port_.draining ? kFirstByteWhileDraining : port_.options.idle);
+  set_due(port_.draining ? kNextWhileDraining : port_.options.idle);
   while (reader_.state() == RequestReader::State::head && !refusal_) {
     const Got got = co_await advance();
     if (got == Got::bytes) continue;
@@ -121,6 +121,7 @@ void Session::screen() {
   Request& head = reader_.request();
   head.peer = peer_;
   if (auto refusal = port_.service.screen(head)) return refuse(*std::move(refusal));
+  if (auto refusal = know_client(head)) return refuse(*std::move(refusal));  // before its body
   const auto limit = port_.service.max_body(head.target);
   const auto room = port_.room_for_body(head);
   const auto length = reader_.content_length();
@@ -152,7 +153,6 @@ Task<Session::Got> Session::advance() {
     if (gives_way_) co_return Got::no_room;
     if (++reads_ > kReadsPerTurn) co_await turn_over();
     if (const auto got = receive()) co_return *got;
-    if (port_.draining && state_ == State::idle && !fresh_) co_return Got::nothing;
     if (Clock::now() >= due()) co_return Got::late;
     wait_readable();
     co_await pause(due());
@@ -250,7 +250,7 @@ void Session::refuse(Refusal refusal) {
 
 std::shared_ptr<Job> Session::take_job() {
   auto job = std::make_shared<Job>();
-  ends_ = ends_ || port_.draining || !reader_.keeps_alive();
+  ends_ = ends_ || port_.stopping || !reader_.keeps_alive();
   Request& request = job->request;
   request = std::move(reader_.request());
   request.refusal = std::exchange(refusal_, std::nullopt);
@@ -271,7 +271,8 @@ std::shared_ptr<Job> Session::take_job() {
 Task<void> Session::answer_request() {
   const auto job = take_job();
   const bool batch = port_.service.is_batch && port_.service.is_batch(job->request);
-  if (!job->request.refusal) job->request.refusal = know_client(*job);
+  if (!job->request.refusal) job->request.refusal = know_client(job->request);
+  job->close = ends_;
   if (!job->request.refusal && !batch) {
     claim(*job);
     job->request.refusal = offer(job);
@@ -318,9 +319,9 @@ std::optional<Refusal> Session::offer(const std::shared_ptr<Job>& job) {
   return Refusal{ErrorCode::overloaded, std::string(kFull)};
 }
 
-/// Determines the client of the request, and checks its number of connections.
-std::optional<Refusal> Session::know_client(Job& job) {
-  client_ = port_.service.client ? port_.service.client(job.request) : peer_;
+/// Whose the request is, and that it has not too many connections.
+std::optional<Refusal> Session::know_client(const Request& request) {
+  client_ = port_.service.client ? port_.service.client(request) : peer_;
   if (client_ == peer_ || key_.is_of(client_)) return std::nullopt;
   if (!port_.places.full(client_)) {
     key_ = Place(port_.places, client_);
@@ -328,7 +329,6 @@ std::optional<Refusal> Session::know_client(Job& job) {
   }
   ++port_.counters.full;
   ends_ = true;
-  job.close = true;
   return Refusal{ErrorCode::overloaded, "Too many connections of this client are open."};
 }
 
@@ -465,10 +465,13 @@ Clock::time_point Session::due() const {
   return port_.draining && state_ != State::working ? std::min(due_, port_.drained_by) : due_;
 }
 
-void Session::end_soon() {
+void Session::close_after_answer() {
   for (const auto& job : jobs_) job->close = true;
-  // A connection's first request may still be on the wire: the connection was accepted as work.
-  if (state_ == State::idle) due_ = std::min(due_, Clock::now() + kFirstByteWhileDraining);
+}
+
+void Session::end_soon() {
+  close_after_answer();
+  if (state_ == State::idle) due_ = std::min(due_, Clock::now() + kNextWhileDraining);
   wake();
 }
 

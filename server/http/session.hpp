@@ -53,6 +53,8 @@ class Session final : public Strand {
   void give_way();
   /// Ends the connection at once.
   void cut();
+  /// The port will drain: the answers being made are the connection's last.
+  void close_after_answer();
   /// The port is draining.
   void end_soon();
   /// Stops its jobs.
@@ -84,7 +86,7 @@ class Session final : public Strand {
   [[nodiscard]] std::shared_ptr<Job> take_job();
   [[nodiscard]] std::optional<Refusal> offer(const std::shared_ptr<Job>& job);
   [[nodiscard]] bool in_time(Job& job) const;
-  [[nodiscard]] std::optional<Refusal> know_client(Job& job);
+  [[nodiscard]] std::optional<Refusal> know_client(const Request& request);
   void claim(Job& job) const;
   void look();
   bool send_some();
@@ -104,7 +106,6 @@ class Session final : public Strand {
   Place key_;           // permit among its key's connections; empty without keys
   InPort at_;
   State state_ = State::idle;
-  bool fresh_ = true;  // no request yet
   bool ends_ = false;  // with the answer being made or sent
   bool cut_ = false;
   bool gives_way_ = false;

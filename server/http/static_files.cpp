@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "api/wire/header_list.hpp"
+#include "server/http/coding.hpp"
 
 namespace tubecut::server {
 namespace {
@@ -50,12 +50,6 @@ const StaticFile* find(std::string_view path, std::span<const StaticFile> files)
   const auto found = std::ranges::find(files, path, &StaticFile::path);
   if (found != files.end()) return &*found;
   return files.empty() && (path == "/" || path == "/docs") ? &kNoConsole : nullptr;
-}
-
-bool takes_gzip(const Request& request) {
-  return std::ranges::any_of(
-      api::header_list(header(request.headers, "Accept-Encoding")),
-      [](const auto& coding) { return coding.name == "gzip" && coding.quality > 0.0; });
 }
 
 std::string unpack(const StaticFile& file) {

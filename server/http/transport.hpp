@@ -106,6 +106,10 @@ class Transport {
 
   [[nodiscard]] TransportStats stats() const;
 
+  /// From any thread: from here on each answer says `Connection: close`, so that clients go
+  /// elsewhere before the port drains.
+  void close_connections();
+
   /// From any thread: takes no new connection, closes idle ones, lets requests already begun be
   /// answered; those not read within `patience` are cut off.
   void drain(std::chrono::milliseconds patience);

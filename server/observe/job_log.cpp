@@ -240,8 +240,7 @@ std::string job_line(const JobRecord& job, std::chrono::system_clock::time_point
   line.text("ts", utc(now)).text("level", name_of(level_of(job.status))).text("event", "job");
   line.text("job", job.facts.id).text("request_id", job.request_id);
   line.text("endpoint", job.facts.endpoint).text("method", job.method);
-  line.text("engine", fmt::format("tubecut {}", api::version()))
-      .integer("numerics", api::numerics());
+  line.text("engine", api::engine()).integer("numerics", api::numerics());
   line.text("replica", job.replica);
   line.integer("status", job.status).text("input_sha256", job.facts.input_sha256);
   line.text("result_sha256", job.facts.result_sha256);

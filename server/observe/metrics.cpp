@@ -190,7 +190,9 @@ struct Metrics::Impl {
 
   explicit Impl(MetricSources of) : sources(std::move(of)) {
     gauge(registry, "tubecut_build_info", "Always 1; the labels name the build.")
-        .Add({{"version", std::string(api::version())}, {"compiler", std::string(compiler())}})
+        .Add({{"version", std::string(api::version())},
+              {"commit", std::string(api::commit())},
+              {"compiler", std::string(compiler())}})
         .Set(1.0);
     gauge(registry, "tubecut_numerics_info",
           "The integer raised with every change of a result bit.")

@@ -292,6 +292,26 @@ TEST(Binary, ClosesIdleConnectionsBeforeItRunsOutOfDescriptors) {
   EXPECT_TRUE(idle.front()->at_end());
 }
 
+TEST(Binary, ProbesAnswerBesideHalfSentHeads) {
+  const Service service;
+  std::vector<std::unique_ptr<Client>> half;
+  for (int i = 0; i < 200; ++i) {
+    half.push_back(std::make_unique<Client>(service.admin_port));
+    half.back()->send("GET /livez HTTP/1.1\r\nHost: loc");
+  }
+  EXPECT_EQ(ask(service.admin_port, get("/livez")).status, 200);
+  EXPECT_EQ(ask(service.admin_port, get("/metrics")).status, 200);
+  Client& last = *half.back();  // which still has the time to send the rest of its head
+  last.send("alhost\r\n\r\n");
+  EXPECT_EQ(last.receive().status, 200);
+}
+
+TEST(Binary, ListensForProbesOnLoopbackUnlessToldOtherwise) {
+  const Service service({"--host", "0.0.0.0", "--open"});
+  EXPECT_EQ(ask(service.admin_port, get("/livez")).status, 200);
+  EXPECT_EQ(ask(service.admin_port, as(get("/livez"), "cell-3.plant.example")).status, 400);
+}
+
 TEST(Binary, IsNotOpenByAccident) {
   Program shy({TUBECUT_BINARY, "--host", "0.0.0.0", "--port", "0", "--admin-port", "0"});
   EXPECT_EQ(shy.exit_code(), 78);

@@ -42,6 +42,19 @@ TEST(Config, HasTheDocumentedDefaults) {
   EXPECT_FALSE(command->config.replica.empty());
 }
 
+TEST(Config, RefusesAMisspelledVariableOfTheEnvironment) {
+  for (const auto* name : {"TUBECUT_ADMINPORT", "TUBECUT_DRAIN_DELAYS", "TUBECUT_Port"}) {
+    const Variable slip(name, "1");
+    const auto command = read({});
+    ASSERT_FALSE(command) << name;
+    EXPECT_NE(command.error().err.find(name), std::string::npos) << command.error().err;
+  }
+  for (const auto* name : {"TUBECUT_KEY", "TUBECUT_URL", "TUBECUT_SERVICE_HOST", "TUBECUT_SEED"}) {
+    const Variable other(name, "1");
+    EXPECT_TRUE(read({})) << name;
+  }
+}
+
 TEST(Config, TakesCommandLineThenFileThenEnvironment) {
   const std::string name = file_with("port = 1001\nadmin-port = 1002\nhost = \"127.0.0.2\"\n");
   const Variable port("TUBECUT_PORT", "2001");

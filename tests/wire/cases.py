@@ -5,6 +5,7 @@ A case sends its bytes, then a plain GET where the connection should still be us
 of the replies in order, and nothing after them. `shut`: the connection ends after the last one. `trap`: stock
 cpp-httplib 0.11.4 is known to fail it, and the suite must see that."""
 
+import gzip
 from dataclasses import dataclass, field
 
 from service import BODY, get, head, post
@@ -70,9 +71,21 @@ def compliance():
     case(k, "expect, body at once", head("Expect: 100-continue", f"Content-Length: {len(BODY)}") + BODY, 200, extra={"or100": True})
     case(k, "expect, body after 100", head("Expect: 100-continue", f"Content-Length: {len(BODY)}"), [100, 200], then=BODY)
     case(k, "expect, refused before the body", head("Expect: 100-continue", "Content-Length: 99999999"), 413, shut=True)
+    case(k, "expect, refused for its media type", head("Expect: 100-continue", "Content-Length: 9").replace(b"/json", b"/xml"), 415, shut=True)
     case(k, "expect is not for 1.0", b"POST /v1/intersections HTTP/1.0\r\nExpect: 100-continue\r\nContent-Type: application/json\r\n"
          + b"Content-Length: %d\r\n\r\n" % len(BODY) + BODY, 200, shut=True)
     case(k, "absolute form", b"GET http://localhost/v1/version HTTP/1.1\r\nHost: localhost\r\n\r\n", 200)
+    case(k, "host with a port", get("/v1/version").replace(b"localhost", b"localhost:8080"), 200)
+    case(k, "host is an address", get("/v1/version").replace(b"localhost", b"[::1]:8080"), 200)
+    case(k, "gzip", get("/openapi.yaml", "Accept-Encoding: br, gzip;q=0.5"), 200,
+         check=lambda r: r.get("Content-Encoding") == "gzip" and gzip.decompress(r.body).startswith(b"openapi: 3"))
+    case(k, "gzip is not forced", get("/openapi.yaml", "Accept-Encoding: gzip;q=0"), 200,
+         check=lambda r: r.get("Content-Encoding") is None and r.get("Vary") == "Accept-Encoding")
+    case(k, "gzip of a job's answer", head("Accept-Encoding: gzip", f"Content-Length: {len(BODY)}") + BODY, 200,
+         check=lambda r: r.get("Content-Encoding") == "gzip" and b'"result":' in gzip.decompress(r.body))
+    case(k, "no gzip of a small body", get("/nowhere", "Accept-Encoding: gzip"), 404, check=lambda r: r.get("Content-Encoding") is None)
+    case(k, "a page that the client has", get("/v1/tubes", "If-None-Match: *"), 304, check=lambda r: r.get("ETag").startswith('W/"') and not r.body)
+    case(k, "a page that changed", get("/v1/tubes", 'If-None-Match: W/"0", "1"'), 200, check=lambda r: r.get("ETag").startswith('W/"'))
     case(k, "empty lines before a request", b"\r\n\r\n" + get("/v1/version"), 200, trap=True)
     case(k, "empty value", get("/v1/version", "X-Empty:"), 200)
     case(k, "spaces around a value", get("/v1/version", "X-A: \t b \t "), 200)
@@ -135,6 +148,10 @@ def malformed():
     k = "malformed"
     refused(k, "two hosts", get("/v1/version", "Host: evil"), trap=True)
     refused(k, "no host", b"GET /v1/version HTTP/1.1\r\n\r\n", trap=True)
+    for host in ("", ":80", "localhost:evil", "localhost:80:80", "localhost:123456", "[::1", "[::1]80"):
+        refused(k, f"host {host!r}", f"GET /v1/version HTTP/1.1\r\nHost: {host}\r\n\r\n".encode())
+    for name, twice in {"media type": "Content-Type: application/json", "key": "X-Api-Key: a\r\nX-Api-Key: b"}.items():
+        refused(k, f"{name} twice", head(twice, f"Content-Length: {len(BODY)}"))
     for host in ("a b", "a@b", "a,b", "a/b", "a?b", "a\\b"):
         refused(k, f"host {host!r}", f"GET /v1/version HTTP/1.1\r\nHost: {host}\r\n\r\n".encode(), trap=True)
     for name, line in {

@@ -52,7 +52,7 @@ class Logged(Running):
 def hold(line, what, status, hashes, version):
     """The members that every line has, and its hashes: those and no other."""
     assert (line["status"], line["replica"]) == (status, "cut-7"), (what, line)
-    assert line["engine"] == f"tubecut {version['version']}" and line["numerics"] == version["numerics"], (what, line)
+    assert line["engine"] == version["engine"] and line["numerics"] == version["numerics"], (what, line)
     found = {name for name in (ASKED, RESULT, BODY) if line.get(name)}
     assert found == hashes, f"{what}: {found} instead of {hashes}"
     assert all(SHA256.fullmatch(line[name]) for name in found), (what, line)

@@ -287,7 +287,7 @@ Id add_units(StepEntities& e) {
 /// The header's texts: job, reference, hashes, verdict. 256 characters are the most one may have.
 std::string description(const Caption& caption, std::string_view what) {
   std::vector<std::string> lines{
-      "tubecut " + std::string(version()) + ", " + std::string(what) +
+      engine() + ", numerics " + std::to_string(numerics()) + ", " + std::string(what) +
           ", mm; edges and cut faces within " + step_real(kSplineError, kKnotDigits) + " mm",
       "input_sha256: " + caption.input_sha256, "result_sha256: " + caption.result_sha256};
   for (const auto& [key, text] : caption.reference) lines.push_back(key + ": " + text);

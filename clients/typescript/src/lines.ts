@@ -30,7 +30,7 @@ export class Full extends Error {
   constructor(readonly waitMs: number) { super(); }
 }
 
-/** Whole lines; the stream may break off anywhere. */
+/** Whole lines that are not blank, because a blank one only says that the service still works; the stream may break off anywhere. */
 async function* textLines(body: ReadableStream<Uint8Array>): AsyncGenerator<string> {
   const decoder = new TextDecoder();
   const reader = body.getReader();
@@ -40,7 +40,7 @@ async function* textLines(body: ReadableStream<Uint8Array>): AsyncGenerator<stri
       const {done, value} = await reader.read();
       const lines = (rest + decoder.decode(value, {stream: !done})).split('\n');
       rest = lines.pop() ?? '';
-      yield* lines;
+      yield* lines.filter((line) => line.trim() !== '');
       if (done) return;
     }
   } finally {
