@@ -105,6 +105,11 @@ void add_limits(CLI::App& app, Config& c) {
          "folder for <day>/<identity>~<job>.jsonl, with --keys; empty: none");
   option(app, "log-day-files", c.log_day.files, "files a day's folder may hold")
       ->check(CLI::Range(std::size_t{1}, std::size_t{10'000'000}));
+  option(app, "log-key-files", c.log_day.key_files, "of those, one key's at most; 0: half")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{10'000'000}));
+  option(app, "log-key-bytes", c.log_day.key_bytes,
+         "bytes that one key's files may hold a day; 0: half")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1} << 40));
   option(app, "log-day-bytes", c.log_day.bytes, "bytes a day's folder may hold")
       ->check(CLI::Range(std::size_t{4096}, std::size_t{1} << 40));
 }

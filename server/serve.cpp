@@ -40,7 +40,8 @@ using namespace std::chrono_literals;
 
 constexpr int kOwnDescriptors = 64;  // ports, logs, job files, and what the kernel has accepted
 constexpr auto kLastProbe = 100ms;   // to be answered while the admin port closes
-constexpr auto kLogPatience = 1s;    // for a line that should be read before going on
+constexpr std::size_t kFileQueue = std::size_t{4} << 20;  // bytes that wait for the disk
+constexpr auto kLogPatience = 1s;  // for a line that should be read before going on
 
 std::chrono::milliseconds ms(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * seconds));
@@ -61,9 +62,18 @@ TransportOptions service_port(const Config& c, const Capacity& can) {
           .write = ms(c.write_s)};
 }
 
-/// Returns whether the request is logged: all jobs, but other requests (catalogues, probing
-/// strangers) only if the service failed, so that they cannot push jobs' lines out of the queue.
-/// The metrics count everything.
+/// A job's file could not be written.
+std::string files_lost_line(const std::string& identity) {
+  return JsonLine{}
+      .text("ts", utc(std::chrono::system_clock::now()))
+      .text("level", "error")
+      .text("event", "job_file_lost")
+      .text("identity", identity)
+      .done();
+}
+
+/// Jobs are logged; of the rest (catalogues, probing strangers) only what failed by our fault, so
+/// that they cannot push jobs' lines out of the queue. The metrics count everything.
 bool logged(const JobRecord& job) { return job.method == "POST" || job.status >= 500; }
 
 Service service_of(const App& app) {
@@ -170,7 +180,10 @@ Hosts service_hosts(const Config& c) {
 struct Run {
   Run(const Config& c, std::size_t memory)
       : access(std::make_shared<Access>(c.keys)), log(c.log_queue, c.log_level) {
-    if (!c.log_directory.empty()) files = std::make_unique<JobFiles>(c.log_directory, c.log_day);
+    if (!c.log_directory.empty())
+      files = std::make_unique<JobFiles>(
+          c.log_directory, c.log_day, kFileQueue,
+          [this](const std::string& identity) { log.write(files_lost_line(identity)); });
     app = std::make_unique<App>(options(c, memory));
   }
 

@@ -14,6 +14,7 @@
 #include <deque>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <system_error>
@@ -42,41 +43,64 @@ bool append(const std::string& file, std::string_view text, int more) {
   return ::close(descriptor) == 0 && written == static_cast<ssize_t>(text.size());
 }
 
-/// The folder of one day and the size of its files; another replica's files count when it is
-/// opened.
+/// The identity in a file's name.
+std::string identity_of(std::string_view name) {
+  return std::string(name.substr(0, name.find('~')));
+}
+
+/// The folder of one day and what it holds; another replica's part of it is seen when it is opened.
 class Day {
  public:
   Day(const std::string& folder, const std::string& day) : path_(folder + "/" + day) {
     ::mkdir(path_.c_str(), 0750);
     std::error_code unknown;
     for (const auto& entry : std::filesystem::directory_iterator(path_, unknown)) {
-      ++files_;
       const auto size = entry.file_size(unknown);
-      if (!unknown) bytes_ += size;
+      count(identity_of(entry.path().filename().string()), 1, unknown ? 0 : size);
     }
   }
 
   [[nodiscard]] bool append(const std::string& name, std::string_view text,
                             const DayBounds& bounds) {
-    if (text.size() > bounds.bytes || bytes_ > bounds.bytes - text.size()) return false;
     const auto file = path_ + "/" + name + ".jsonl";
     struct stat about = {};
     const bool there = ::lstat(file.c_str(), &about) == 0;
-    if (!there && files_ >= bounds.files) return false;
+    const auto own = identity_of(name);
+    const Held more{there ? 0U : 1U, text.size()};
+    const Held of_key{bounds.key_files > 0 ? bounds.key_files : bounds.files / 2,
+                      bounds.key_bytes > 0 ? bounds.key_bytes : bounds.bytes / 2};
+    if (!fits(all_, more, {bounds.files, bounds.bytes}) || !fits(of_[own], more, of_key))
+      return false;
     if (!server::append(file, text, there ? 0 : O_CREAT)) return false;
-    files_ += there ? 0 : 1;
-    bytes_ += text.size();
+    count(own, more.files, more.bytes);
     return true;
   }
 
  private:
+  struct Held {
+    std::size_t files = 0;
+    std::size_t bytes = 0;
+  };
+
+  [[nodiscard]] static bool fits(const Held& held, const Held& more, const Held& most) {
+    return held.files + more.files <= most.files && more.bytes <= most.bytes &&
+           held.bytes <= most.bytes - more.bytes;
+  }
+  void count(const std::string& identity, std::size_t files, std::size_t bytes) {
+    for (auto* held : {&all_, &of_[identity]}) {
+      held->files += files;
+      held->bytes += bytes;
+    }
+  }
+
   std::string path_;
-  std::size_t files_ = 0;
-  std::size_t bytes_ = 0;
+  Held all_;
+  std::map<std::string, Held> of_;  // each key's jobs
 };
 
 /// A folder that does not answer must not keep the process from ending.
 constexpr auto kPatience = std::chrono::seconds(1);
+constexpr auto kTellAgain = std::chrono::minutes(1);
 
 }  // namespace
 
@@ -111,17 +135,34 @@ struct JobFiles::Impl {
       held -= entry.bytes();
       lock.unlock();
       if (!day || last != entry.day) day.emplace(folder, last = entry.day);
-      if (!day->append(entry.name, entry.lines, bounds)) ++dropped;
+      if (!day->append(entry.name, entry.lines, bounds)) lose(identity_of(entry.name));
       lock.lock();
     }
     ended = true;
     done.notify_all();
   }
 
+  /// From any thread.
+  void lose(const std::string& identity) {
+    ++dropped;
+    if (!lost) return;
+    const auto now = std::chrono::steady_clock::now();
+    {
+      const std::lock_guard lock(telling);
+      const auto [at, first] = told.try_emplace(identity, now);
+      if (!first && now - at->second < kTellAgain) return;
+      at->second = now;
+    }
+    lost(identity);
+  }
+
   std::string folder;
   DayBounds bounds;
-  std::string last;        // day
-  std::optional<Day> day;  // its folder; only for the thread
+  std::function<void(const std::string& identity)> lost;
+  std::mutex telling;
+  std::map<std::string, std::chrono::steady_clock::time_point> told;  // keys whose loss was told
+  std::string last;                                                   // day
+  std::optional<Day> day;  // its folder; the thread's alone
   std::size_t most = 0;    // bytes of the queue
   std::size_t held = 0;    // of them
   std::mutex mutex;
@@ -133,11 +174,13 @@ struct JobFiles::Impl {
   std::atomic<std::uint64_t> dropped = 0;
 };
 
-JobFiles::JobFiles(std::string folder, DayBounds bounds, std::size_t queue_bytes)
+JobFiles::JobFiles(std::string folder, DayBounds bounds, std::size_t queue_bytes,
+                   std::function<void(const std::string& identity)> lost)
     : x_(std::make_shared<Impl>()) {
   x_->folder = std::move(folder);
   x_->bounds = bounds;
   x_->most = queue_bytes;
+  x_->lost = std::move(lost);
   std::thread([x = x_] { x->run(); }).detach();
 }
 
@@ -151,15 +194,16 @@ JobFiles::~JobFiles() {
 void JobFiles::write(std::string_view day, std::string_view identity, std::string_view job,
                      std::string lines) {
   Impl::Entry entry{std::string(day), file_name_of(identity, job), std::move(lines)};
+  bool fits = false;
   {
     const std::lock_guard lock(x_->mutex);
-    if (entry.bytes() > x_->most - x_->held) {
-      ++x_->dropped;
-      return;
+    fits = entry.bytes() <= x_->most - x_->held;
+    if (fits) {
+      x_->held += entry.bytes();
+      x_->queue.push_back(std::move(entry));
     }
-    x_->held += entry.bytes();
-    x_->queue.push_back(std::move(entry));
   }
+  if (!fits) return x_->lose(std::string(identity));
   x_->some.notify_one();
 }
 

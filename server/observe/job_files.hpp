@@ -2,26 +2,31 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 
 namespace tubecut::server {
 
-/// Limits of one day's folder; beyond them nothing is written.
+/// What one day's folder may hold, and of that what one key's jobs may; beyond it nothing is
+/// written.
 struct DayBounds {
   std::size_t files = 100'000;
   std::size_t bytes = std::size_t{1} << 30;
+  std::size_t key_files = 0;  // 0: half of all
+  std::size_t key_bytes = 0;
 };
 
-/// One file per job, `<folder>/<day>/<identity>~<job>.jsonl`, written by a separate thread, so that
-/// a slow disk blocks no job. Queue and folders are bounded by bytes; files beyond the bounds are
-/// dropped and counted.
+/// One file per job, `<folder>/<day>/<identity>~<job>.jsonl`, written by a thread of its own: a
+/// slow disk blocks no job. Queue and folders are bounded by bytes; what does not fit is dropped
+/// and counted, and `lost` is told whose it was, once a minute for each key.
 class JobFiles {
  public:
   explicit JobFiles(std::string folder, DayBounds bounds = {},
-                    std::size_t queue_bytes = std::size_t{4} << 20);
-  ~JobFiles();  // writes the queue, for at most a second
+                    std::size_t queue_bytes = std::size_t{4} << 20,
+                    std::function<void(const std::string& identity)> lost = {});
+  ~JobFiles();  // writes what is queued, for a second at most
   JobFiles(const JobFiles&) = delete;
   JobFiles& operator=(const JobFiles&) = delete;
 

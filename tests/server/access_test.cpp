@@ -307,11 +307,35 @@ TEST(JobFiles, QueueIsBoundedInBytes) {
   EXPECT_EQ(files_in(folder + "/2024-03-01"), std::vector<std::string>{"mes~fits.jsonl"});
 }
 
-TEST(JobFiles, KeepWithinTheLimitsOfADay) {
+TEST(JobFiles, KeepAKeyToItsPart) {
+  const auto folder = ::testing::TempDir() + "tubecut_parted_jobs";
+  ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
+  std::vector<std::string> told;
+  std::uint64_t dropped = 0;
+  {
+    JobFiles files(folder, {.files = 8, .bytes = 1000}, 1u << 20,
+                   [&](const std::string& identity) { told.push_back(identity); });
+    for (int i = 0; i < 20; ++i) files.write("2024-03-01", "greedy", std::to_string(i), "0123");
+    for (int i = 0; i < 4; ++i) files.write("2024-03-01", "modest", std::to_string(i), "0123");
+    for (int i = 0; i < 5000 && files_in(folder + "/2024-03-01").size() < 8; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    dropped = files.dropped();
+  }
+  const auto there = files_in(folder + "/2024-03-01");
+  const auto of = [&](std::string_view key) {
+    return std::ranges::count_if(there, [&](const auto& name) { return name.starts_with(key); });
+  };
+  EXPECT_EQ(of("greedy~"), 4);
+  EXPECT_EQ(of("modest~"), 4);
+  EXPECT_EQ(dropped, 16U);
+  EXPECT_EQ(told, std::vector<std::string>{"greedy"});  // once, not sixteen times
+}
+
+TEST(JobFiles, HoldTheBoundsOfADay) {
   const auto folder = ::testing::TempDir() + "tubecut_bounded_jobs";
   ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
-  for (int turn = 0; turn < 2; ++turn) {  // a new process counts the existing files
-    JobFiles files(folder, {.files = 3, .bytes = 100});
+  for (int turn = 0; turn < 2; ++turn) {  // a new process counts what is there
+    JobFiles files(folder, {.files = 3, .bytes = 100, .key_files = 3, .key_bytes = 100});
     for (int i = 0; i < 20; ++i)
       files.write("2024-03-01", "mes", "job-" + std::to_string(i), "0123456789");
     for (int i = 0; i < 20; ++i) files.write("2024-03-02", "mes", "one", "0123456789");
