@@ -317,9 +317,12 @@ char* print_number(char* to, double value) {
   // Beyond 2^53 numbers get an exponent, because digits without one would be an integer that our
   // own reader refuses.
   constexpr double kExact = 9007199254740992.0;
-  return std::abs(value) > kExact
-             ? std::to_chars(to, to + kNumberBytes, value, std::chars_format::scientific).ptr
-             : print_shortest(to, value);
+  if (std::abs(value) > kExact)
+    return std::to_chars(to, to + kNumberBytes, value, std::chars_format::scientific).ptr;
+  // Whole numbers have all of their digits, because readers of typed integers refuse 2e+05.
+  if (value == std::trunc(value))
+    return std::to_chars(to, to + kNumberBytes, static_cast<std::int64_t>(value)).ptr;
+  return print_shortest(to, value);
 }
 
 void append_number(std::string& out, double value) {

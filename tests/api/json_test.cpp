@@ -21,7 +21,16 @@ std::string cbor(std::string_view text) {
   return out.take();
 }
 
-TEST(Json, PrintedTextReadsBackEqual) {
+TEST(Json, PrintsWholeNumbersWithoutAnExponent) {
+  EXPECT_EQ(dump(Json{200000.0}), "200000");
+  EXPECT_EQ(dump(Json{-1e9}), "-1000000000");
+  EXPECT_EQ(dump(Json{1e15}), "1000000000000000");
+  EXPECT_EQ(dump(Json{9007199254740992.0}), "9007199254740992");
+  EXPECT_EQ(dump(Json{1e16}), "1e+16");  // beyond 2^53 no reader of integers is sure of it
+  EXPECT_EQ(dump(Json{2e5 + 0.5}), "200000.5");
+}
+
+TEST(Json, PrintsWhatItRead) {
   for (const char* text :
        {"null", "true", "[1,2.5,-3e-07,\"a\\\"b\",{\"k\":[]}]", "{\"b\":1,\"a\":2}"}) {
     const auto json = parse(text);
