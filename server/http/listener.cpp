@@ -1,7 +1,10 @@
 // The service's port: Boost.Asio accepts, and each connection runs on its own (session.hpp).
 
 #include <fmt/format.h>
+#include <linux/filter.h>
+#include <sys/socket.h>
 
+#include <array>
 #include <boost/asio/basic_socket_acceptor.hpp>
 #include <boost/asio/ip/basic_resolver.hpp>
 #include <boost/asio/ip/v6_only.hpp>
@@ -19,23 +22,33 @@ using Acceptor = asio::basic_socket_acceptor<Tcp, Executor>;
 
 constexpr int kBacklog = 1024;
 constexpr int kAcceptsPerTurn = 64;  // then the connections' turn
-constexpr auto kOutOfMeans = 10ms;   // if descriptors or memory are short, try again after
+constexpr auto kOutOfMeans = 10ms;   // descriptors, memory: asked again
+constexpr auto kHandshakes = 50ms;   // that have begun: they end within a round trip
 constexpr auto kListeningEnds = 5s;  // a loop that does not even do that
 
-/// Accepts connections until it is stopped, and then those that the kernel had accepted.
+/// Drops what opens a connection (SYN) from here on. Its client sends it again a second later, when
+/// the port is closed or another process listens: a connection made in the moment in which the port
+/// closes would be reset, and its request lost. If the system refuses, that may happen.
+void drop_new_connections(Acceptor& acceptor) {
+  constexpr std::uint32_t kFlags = 13, kSyn = 2, kAll = 0xffff;  // of a TCP header
+  std::array<sock_filter, 4> drops{{BPF_STMT(BPF_LD | BPF_B | BPF_ABS, kFlags),
+                                    BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, kSyn, 0, 1),
+                                    BPF_STMT(BPF_RET | BPF_K, 0), BPF_STMT(BPF_RET | BPF_K, kAll)}};
+  const sock_fprog program{.len = drops.size(), .filter = drops.data()};
+  ::setsockopt(acceptor.native_handle(), SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof program);
+}
+
+/// Takes connections until it is told to stop, and then those that the kernel had taken.
 class Listener final : public Strand {
  public:
   Listener(Port& port, Acceptor& acceptor) : Strand(port.loop), port_(port), acceptor_(acceptor) {}
   ~Listener() override { drop(); }
 
   void start() { begin(live()); }
-  /// Connections that the kernel has accepted are work too: closing the port would reset them.
   void stop() {
-    while (accept_some()) {
-    }
-    boost::system::error_code error;
-    acceptor_.close(error);
     stopped_ = true;
+    drop_new_connections(acceptor_);
+    closes_ = Clock::now() + kHandshakes;
     wake();
   }
   [[nodiscard]] bool sound() const { return stopped_; }
@@ -45,15 +58,27 @@ class Listener final : public Strand {
     while (acceptor_.is_open()) {
       const bool goes_on = look();
       if (!acceptor_.is_open()) break;
-      if (goes_on) {
+      if (Clock::now() >= closes_) {
+        close();
+      } else if (goes_on) {
         co_await yield();
+      } else if (stopped_) {
+        co_await pause(closes_);
       } else {
         co_await Chain::Pause();
       }
     }
   }
 
-  /// Accepts connections, or waits for the next one. Returns true if it must be called again.
+  /// What the kernel has taken for us is work too: closing the port would reset it.
+  void close() {
+    while (accept_some()) {
+    }
+    boost::system::error_code error;
+    acceptor_.close(error);
+  }
+
+  /// Accepts, or asks to be woken when there is something to accept; true when to be called again.
   bool look() {
     try {
       if (accept_some()) return true;
@@ -118,6 +143,7 @@ class Listener final : public Strand {
   Acceptor& acceptor_;
   bool waits_ = false;
   bool stopped_ = false;
+  Clock::time_point closes_ = Clock::time_point::max();
   bool out_of_means_ = false;
 };
 

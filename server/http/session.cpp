@@ -72,7 +72,7 @@ Task<void> Session::live() {
   try {
     while (co_await read_request()) {
       co_await answer_request();
-      if (ends_ || port_.draining) {
+      if (ends_) {  // as the answer says, whatever the port does since it was made
         co_await linger();
         break;
       }

@@ -316,7 +316,7 @@ class Suite:
             self.check(waits and not others, f"beside blank lines {len(waits)} requests are answered but for {others[:3]}")
             late = sum(w > LATE_MS for w in waits)
             self.check(self.count < IN_FULL or late <= len(waits) / 100, f"beside blank lines {late} of {len(waits)} requests take over {LATE_MS} ms")
-            print(f"200 000 lines that are no jobs: {summary}, {len(data)} bytes; beside 8 times 8 MiB of blank lines {len(waits)} requests, "
+            print(f"{bad} lines that are not jobs: {summary}; beside 8 times 8 MiB of blank lines {len(waits)} requests, "
                   f"p99 {waits[int(0.99 * (len(waits) - 1))]:.1f} ms, {late} over {LATE_MS}")
 
     def run(self):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A key's limit of connections: `places.py BINARY`. It counts from the end of a request's head, so bodies that never come whole take no more
-places than the limit, and other keys keep theirs."""
+places than the limit, and other keys keep theirs, also behind a proxy whose address all of them share."""
 
 import json
 import subprocess
@@ -14,7 +14,7 @@ LIMIT = 4
 
 def new_key(binary, name):
     """The key, and its line for --keys."""
-    return subprocess.run([binary, "new-key", name], capture_output=True, text=True, check=True).stdout.split("\n")[:2]
+    return subprocess.run([binary, "new-key", name], capture_output=True, text=True, check=True).stdout.split("\n")[1:4:2]
 
 
 def main():
@@ -23,7 +23,7 @@ def main():
         (ours, line), (theirs, other) = new_key(binary, "ours"), new_key(binary, "theirs")
         keys.write(f"{line}\n{other}\n")
         keys.flush()
-        with Service(binary, "--keys", keys.name, "--connections-per-client", str(LIMIT)) as service:
+        with Service(binary, "--keys", keys.name, "--connections-per-client", str(LIMIT), "--trusted-proxy", "127.0.0.1") as service:
             arriving = [connect(service.port) for _ in range(LIMIT)]
             for sock in arriving:
                 sock.sendall(head(f"X-Api-Key: {ours}", "Expect: 100-continue", f"Content-Length: {len(BODY)}"))

@@ -60,7 +60,7 @@ def rolls(binary, stops, delay):
     codes = []
     try:
         for _ in range(stops):
-            with Service(binary, "--port", str(port), "--drain-delay-s", str(delay)) as service:
+            with Service(binary, "--drain-delay-s", str(delay), port=port) as service:
                 before = [client.answered for client in clients]
                 end = time.monotonic() + PATIENCE
                 while any(client.answered < b + EACH for client, b in zip(clients, before)) and time.monotonic() < end:

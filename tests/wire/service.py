@@ -16,10 +16,10 @@ BODY = (ROOT / "examples/intersections/two-tubes-by-axis.json").read_bytes()
 class Service:
     """`command` until the end of the with block; its log is thrown away after the ready line, its standard error goes to `said`."""
 
-    def __init__(self, *command, said=None):
+    def __init__(self, *command, said=None, port=0):
         stock = command[0].endswith("stock_server")
-        words = [command[0]] if stock else [command[0], "--port", "0", "--admin-port", "0", *command[1:]]
-        # An address sanitizer keeps freed memory in quarantine, 256 MiB by default, which would hide the held memory.
+        words = [command[0]] if stock else [command[0], "--port", str(port), "--admin-port", "0", *command[1:]]
+        # An address sanitizer keeps freed memory aside, 256 MiB of it unless told: what is held could not be seen.
         aside = os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=1:thread_local_quarantine_size_kb=64"
         self.process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=said, env={**os.environ, "ASAN_OPTIONS": aside})
         self.stock = stock
