@@ -79,7 +79,7 @@ double arc_length(const Contour& contour, const Segment& segment, double from, d
 namespace {
 
 /// A part of a segment between requested phases, events, or borders of its cutter's surfaces.
-struct Piece {
+struct LengthSpan {
   std::size_t segment;
   double from, to;  // rad, in the segment's range
   double length = 0.0;
@@ -111,7 +111,7 @@ class Walk {
     std::size_t pieces;  // before it
     double leaps;        // of jumps before it, mm
   };
-  std::vector<Piece> pieces;
+  std::vector<LengthSpan> pieces;
   std::vector<Stop> stops;
 
  private:
@@ -152,7 +152,7 @@ class Walk {
 /// silhouette, integrates piece by piece.
 class Rule {
  public:
-  Rule(const Contour& contour, std::span<Piece> pieces)
+  Rule(const Contour& contour, std::span<LengthSpan> pieces)
       : contour_(contour), pieces_(pieces), half_(pieces.size()) {
     std::vector<double> middle(pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -206,18 +206,18 @@ class Rule {
   }
 
   const Contour& contour_;
-  std::span<Piece> pieces_;
+  std::span<LengthSpan> pieces_;
   std::vector<double> half_, low_, high_, slope_;
   Stations middle_;
 };
 
-void measure(const Contour& contour, std::span<Piece> pieces, const std::stop_token& stop) {
+void measure(const Contour& contour, std::span<LengthSpan> pieces, const std::stop_token& stop) {
   constexpr std::size_t kAtOnce = 1024;  // some 100 us, and fits in the nearest cache
   while (!pieces.empty() && !stop.stop_requested()) {
     const auto segment = pieces.front().segment;
     const auto block = pieces.first(std::min(kAtOnce, pieces.size()));
-    const auto other =
-        std::ranges::find_if(block, [&](const Piece& piece) { return piece.segment != segment; });
+    const auto other = std::ranges::find_if(
+        block, [&](const LengthSpan& piece) { return piece.segment != segment; });
     const auto run = static_cast<std::size_t>(other - block.begin());
     Rule(contour, pieces.first(run)).apply();
     pieces = pieces.subspan(run);

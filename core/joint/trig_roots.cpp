@@ -206,7 +206,8 @@ class Wave {
     Cells::OfEach nearest;
     nearest_to_zero(is_, kCells, bend_, nearest);
     for (std::size_t j = 0; j < Cells::kNumber; ++j)
-      if (!(nearest[j] > noise_) && !look(kCells.middle[j], Cells::kHalf, found)) return false;
+      if (!(nearest[j] > noise_) && !find_roots(kCells.middle[j], Cells::kHalf, found))
+        return false;
     return true;
   }
 
@@ -214,7 +215,7 @@ class Wave {
   static constexpr double kNarrow = 1e-6;  // rad, half a cell: a zero of even order, or nearly one
   static constexpr double kNoise =
       1e-10;  // of the wave's largest possible value: a zero to rounding
-  static constexpr int kLooks = 1000;
+  static constexpr int kMaxCells = 1000;
   static constexpr int kSteps = 60;
 
   struct At {
@@ -236,15 +237,15 @@ class Wave {
     return out;
   }
 
-  [[nodiscard]] bool look(const PhasePoint& middle, double half, RootPhases& found) {
-    if (++looks_ > kLooks) return false;
+  [[nodiscard]] bool find_roots(const PhasePoint& middle, double half, RootPhases& found) {
+    if (++cells_ > kMaxCells) return false;
     const At here = at(middle);
     const double turn = bend_ * half;  // maximum change of the slope
     if (std::abs(here.value) - half * (std::abs(here.slope) + 0.5 * turn) > noise_) return true;
     if (std::abs(here.slope) > turn) return close(middle, half, here, found);
     if (half > kNarrow)
-      return look(middle.turned(-0.5 * half), 0.5 * half, found) &&
-             look(middle.turned(0.5 * half), 0.5 * half, found);
+      return find_roots(middle.turned(-0.5 * half), 0.5 * half, found) &&
+             find_roots(middle.turned(0.5 * half), 0.5 * half, found);
     const double step = -here.slope / here.bend;
     const double phi = middle.phi + (std::abs(step) <= 2.0 * half ? step : 0.0);
     if (found.last() && phi - *found.last() < 8.0 * kNarrow) return true;
@@ -279,7 +280,7 @@ class Wave {
 
   Harmonics is_;
   double largest_ = 0.0, bend_ = 0.0, noise_ = 0.0;
-  int looks_ = 0;
+  int cells_ = 0;
 };
 
 }  // namespace

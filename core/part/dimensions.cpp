@@ -169,17 +169,17 @@ std::vector<Gauge> gauges(const Shape& shape) {
   return out;
 }
 
-struct Node {
+struct OutlinePoint {
   double phi, z;
 };
 
 /// Rotates the edge by `by`, after a mirroring if `mirror` is set.
 Edge moved(const Edge& e, bool mirror, double by) {
-  std::vector<Node> nodes;
+  std::vector<OutlinePoint> nodes;
   for (std::size_t i = 0; i < e.phi.size(); ++i)
     nodes.push_back({math::whole_turn((mirror ? -e.phi[i] : e.phi[i]) + by), e.z[i]});
   if (mirror) std::ranges::reverse(nodes);
-  std::ranges::stable_sort(nodes, {}, &Node::phi);
+  std::ranges::stable_sort(nodes, {}, &OutlinePoint::phi);
   Edge out;
   for (const auto& node : nodes) {
     out.phi.push_back(node.phi);

@@ -45,14 +45,15 @@ class Worst {
 
 /// Transforms from the part's frame to the end's own: a shift, and at the finish half a revolution
 /// about x.
-struct Place {
+struct RigidTransform {
   Eigen::Matrix3d turn;
   Vector3d shift;
   Vector3d operator()(const Vector3d& p) const { return turn * p + shift; }
 };
 
 /// Checks that every row of the part's table holds the same points as the end's own.
-double misplaced(const End& end, bool finish, const Place& place, const std::stop_token& stop) {
+double misplaced(const End& end, bool finish, const RigidTransform& place,
+                 const std::stop_token& stop) {
   const auto& target = end.spec.target;
   const auto n = end.own.phi.size();
   if (end.table.phi.size() != n) return 1.0;

@@ -17,7 +17,7 @@ using Point = Eigen::Vector2d;  // on the developed wall, mm
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-struct Piece {
+struct LineSegment {
   Point a, b;
 };
 
@@ -44,7 +44,7 @@ struct Way {
 };
 
 /// Computes the shortest path from a point to a segment.
-Way way(const Point& p, const Piece& to) {
+Way way(const Point& p, const LineSegment& to) {
   const Point along = to.b - to.a;
   const double square = along.squaredNorm();
   const double t = square > 0.0 ? std::clamp((p - to.a).dot(along) / square, 0.0, 1.0) : 0.0;
@@ -52,12 +52,12 @@ Way way(const Point& p, const Piece& to) {
   return {(foot - p).norm(), p, foot};
 }
 
-double side(const Piece& of, const Point& p) {
+double side(const LineSegment& of, const Point& p) {
   const Point along = of.b - of.a, from = p - of.a;
   return along.x() * from.y() - along.y() * from.x();
 }
 
-Way way(const Piece& one, const Piece& other) {
+Way way(const LineSegment& one, const LineSegment& other) {
   const double a = side(one, other.a), b = side(one, other.b);
   const double c = side(other, one.a), d = side(other, one.b);
   if (a * b < 0.0 && c * d < 0.0) {
@@ -123,7 +123,7 @@ class Line {
  private:
   static constexpr std::size_t kBlock = 32;
 
-  [[nodiscard]] std::span<const Piece> block(std::size_t i) const {
+  [[nodiscard]] std::span<const LineSegment> block(std::size_t i) const {
     const auto from = i * kBlock;
     return std::span(pieces_).subspan(from, std::min(kBlock, pieces_.size() - from));
   }
@@ -135,16 +135,17 @@ class Line {
         out = std::min(out, (other.pieces_[j].a + Point(shift, 0.0) - pieces_[i].a).squaredNorm());
     return std::sqrt(out) * (1.0 + 1e-12);  // because rounding must not exclude the pair itself
   }
-  static void shorten(std::span<const Piece> one, std::span<const Piece> other, double shift,
-                      Way& best) {
+  static void shorten(std::span<const LineSegment> one, std::span<const LineSegment> other,
+                      double shift, Way& best) {
     const Point by(shift, 0.0);
     for (const auto& piece : one)
       for (const auto& [a, b] : other)
-        if (const auto w = way(piece, Piece{a + by, b + by}); w.length < best.length) best = w;
+        if (const auto w = way(piece, LineSegment{a + by, b + by}); w.length < best.length)
+          best = w;
   }
 
   std::vector<Point> points_;
-  std::vector<Piece> pieces_;
+  std::vector<LineSegment> pieces_;
   std::vector<WebBox> boxes_;
   WebBox whole_;
 };

@@ -9,12 +9,12 @@ namespace tubecut::torch {
 namespace {
 
 /// A point on the outer wall, rad and mm.
-struct Place {
+struct MarkPoint {
   double phi = 0.0, z = 0.0;
 };
 
 /// Returns a straight stroke from one point to the other, through their middle.
-TorchCut stroke(const joint::Target& tube, std::string name, Place from, Place to) {
+TorchCut stroke(const joint::Target& tube, std::string name, MarkPoint from, MarkPoint to) {
   TorchCut out{.name = std::move(name), .path = {}, .mark = true};
   out.path = {.phi = {from.phi, 0.5 * (from.phi + to.phi), to.phi},
               .z = {from.z, 0.5 * (from.z + to.z), to.z},

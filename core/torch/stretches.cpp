@@ -25,7 +25,7 @@ constexpr double kWidest =
 using Points = std::vector<motion::CutPoint>;
 
 /// Between two lengths along the whole cut, mm.
-struct Stretch {
+struct LengthRange {
   double from = 0.0, to = 0.0;
 };
 
@@ -147,7 +147,7 @@ class TabbedWays {
   }
 
   /// Returns the segment with its lead-in, as long as the scrap permits.
-  Result<TorchWay> way_along(const Stretch& s, const std::optional<motion::Lead>& asked) {
+  Result<TorchWay> way_along(const LengthRange& s, const std::optional<motion::Lead>& asked) {
     const auto track = motion::stretch_of(whole_, length_, s.from, s.to);
     if (!asked) return TorchWay{{track.points, 0, track.points.size() - 1, true}, 0.0};
     auto lead = *asked;
@@ -159,7 +159,8 @@ class TabbedWays {
 
   /// Returns how long before its end the tab begins, mm: first from the cut's end only, which is
   /// usually the nearest, then from everything near it. `least`: from axis to axis.
-  Result<double> gap_before(const Stretch& s, double least, const TorchWay& after, double turn) {
+  Result<double> gap_before(const LengthRange& s, double least, const TorchWay& after,
+                            double turn) {
     const double along = kNear * least + way_in(after, whole_.radius);
     const auto near =
         on_walls(border_, turned(near_end(after.points.points, whole_.radius, along, false), turn));
@@ -196,7 +197,7 @@ class TabbedWays {
   }
 
   /// Keeps the lead-in and changes the end of the segment.
-  void end_at(const Stretch& s, TorchWay& way) const {
+  void end_at(const LengthRange& s, TorchWay& way) const {
     auto& points = way.points;
     const auto track = motion::stretch_of(whole_, length_, s.from, s.to);
     const bool corner = points.points[points.cut_first].corner;

@@ -248,9 +248,9 @@ class Laps {
 };
 
 /// A group of axes and the phases between which they and all rows in their reach are.
-class Look {
+class DropSearch {
  public:
-  Look(const Finished& f, std::size_t lanes) : f_(f), laps_(f), n_(lanes) {}
+  DropSearch(const Finished& f, std::size_t lanes) : f_(f), laps_(f), n_(lanes) {}
 
   /// Takes axes from `i` on; returns the first that remains.
   [[nodiscard]] std::size_t take(const Axes& axes, std::size_t i) {
@@ -365,12 +365,12 @@ void Axes::resize(std::size_t n) {
 
 void least(const Finished& finished, const Axes& axes, std::span<double> out,
            const std::stop_token& stop) {
-  Look look(finished, 1);
+  DropSearch drop_search(finished, 1);
   for (std::size_t i = 0; i < axes.phi.size() && !stop.stop_requested();) {
-    const auto end = look.take(axes, i);
-    look.past_circles();
-    for (const auto& band : finished.bands) look.past_lines(band);
-    for (std::size_t l = 0; i < end; ++l, ++i) out[i] = look.drops()[l];
+    const auto end = drop_search.take(axes, i);
+    drop_search.past_circles();
+    for (const auto& band : finished.bands) drop_search.past_lines(band);
+    for (std::size_t l = 0; i < end; ++l, ++i) out[i] = drop_search.drops()[l];
   }
 }
 

@@ -32,7 +32,7 @@ struct Run {
 };
 
 /// The wall between two neighbouring edges, from one row to the next.
-struct Piece {
+struct WallStrip {
   std::array<Run, 2> runs;
   double steepest = 0.0, most_bent = 0.0;  // of both edges, over the whole interval
 
@@ -46,8 +46,8 @@ struct Piece {
   [[nodiscard]] double bow(double width) const { return width * width * most_bent; }
 };
 
-Piece piece_of(const CutWall& wall, std::size_t edge, std::size_t gap) {
-  Piece out;
+WallStrip piece_of(const CutWall& wall, std::size_t edge, std::size_t gap) {
+  WallStrip out;
   double square = 0.0;
   const auto next = gap + 1 < wall.gaps() ? gap + 1 : 0;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -91,7 +91,7 @@ struct WallCell {
 
 /// The wall between two neighbouring edges, all the way around.
 struct RowRing {
-  std::vector<Piece> pieces;  // of each gap
+  std::vector<WallStrip> pieces;  // of each gap
   std::vector<double>
       ways;  // `way(1)` of each piece, stored separately because most pieces need nothing else
   std::array<PointArrays, 2> edges;  // both ends of the line across at the start of each piece

@@ -69,7 +69,7 @@ int halvings_of(double limit, double rho) {
 
 /// A point between rows: the fraction u from one to the next, and the drop that an axis there
 /// requires.
-struct Place {
+struct DropSample {
   std::size_t row;
   double u;
   double drop = 0.0;
@@ -131,22 +131,22 @@ class LeastDrop {
 
   /// For the rows from `first` to before `end`, returns points between which the smallest drop is
   /// nearly straight, ascending, each row's own first; then only row `end`.
-  [[nodiscard]] std::vector<Place> places(std::size_t first, std::size_t end) const {
-    std::vector<Place> out;
+  [[nodiscard]] std::vector<DropSample> places(std::size_t first, std::size_t end) const {
+    std::vector<DropSample> out;
     for (auto i = first; i < end; ++i) {
       const auto parts = std::size_t{1} << least_halvings(i);
       for (std::size_t k = 0; k < parts; ++k)
         out.push_back({i, static_cast<double>(k) / static_cast<double>(parts)});
     }
     out.push_back({end, 0.0});
-    const auto secants = look(out);
+    const auto secants = set_drops(out);
     auto gaps = bulging(out, secants);
-    const auto before = [](const Place& a, const Place& b) {
+    const auto before = [](const DropSample& a, const DropSample& b) {
       return a.row != b.row ? a.row < b.row : a.u < b.u;
     };
-    std::vector<Place> both;
+    std::vector<DropSample> both;
     while (!gaps.empty() && !stop_.stop_requested()) {
-      std::vector<Place> middles;
+      std::vector<DropSample> middles;
       gaps = halved(gaps, middles);
       both.resize(out.size() + middles.size());
       std::ranges::merge(out, middles, both.begin(), before);
@@ -156,7 +156,7 @@ class LeastDrop {
   }
 
   /// Returns the position along the inner wall, and the height of the finished line there.
-  [[nodiscard]] Points::value_type on_line(const Place& at) const {
+  [[nodiscard]] Points::value_type on_line(const DropSample& at) const {
     const double foot = math::mixed(lines_.foot[at.row], lines_.foot[lines_.next(at.row)], at.u);
     return {finished_.inner * at.u * width(at.row), foot - at.drop};
   }
@@ -256,7 +256,7 @@ class LeastDrop {
   }
 
   /// Sets the drop that each point requires. Returns the secants of their axes.
-  std::vector<double> look(std::vector<Place>& at) const {
+  std::vector<double> set_drops(std::vector<DropSample>& at) const {
     const auto n = at.size();
     drop::Axes axes;
     axes.resize(n);
@@ -284,7 +284,7 @@ class LeastDrop {
 
   /// Returns both halves of the parts that bend at their middle; the points alternate between ends
   /// and middles.
-  [[nodiscard]] std::vector<Gap> bulging(const std::vector<Place>& at,
+  [[nodiscard]] std::vector<Gap> bulging(const std::vector<DropSample>& at,
                                          const std::vector<double>& secants) const {
     std::vector<Gap> out;
     for (std::size_t k = 1; k + 1 < at.size(); k += 2) {
@@ -300,9 +300,9 @@ class LeastDrop {
   }
 
   /// Appends the middles of gaps, in their order; returns both halves of those that bend there.
-  std::vector<Gap> halved(const std::vector<Gap>& gaps, std::vector<Place>& middles) const {
+  std::vector<Gap> halved(const std::vector<Gap>& gaps, std::vector<DropSample>& middles) const {
     for (const auto& gap : gaps) middles.push_back({gap.row, 0.5 * (gap.from + gap.to)});
-    const auto secants = look(middles);
+    const auto secants = set_drops(middles);
     std::vector<Gap> out;
     for (std::size_t k = 0; k < gaps.size(); ++k) {
       const auto& [row, from, to, drop_from, drop_to, halvings] = gaps[k];
@@ -323,20 +323,20 @@ class LeastDrop {
 
 /// Appends the phases between two rows at which the smallest drop bends.
 void append_bends(const LeastDrop& drop, double phi, double tolerance,
-                  std::span<const Place> places, std::vector<double>& out) {
+                  std::span<const DropSample> places, std::vector<double>& out) {
   constexpr double kNarrow = 2e-6;  // rad: minimum
   const auto row = places.front().row;
   const double width = drop.width(row);
   if (width < kNarrow) return;
   // The distance of a point to a line is at most that along z.
-  const auto off = [&](const Place& at) {
+  const auto off = [&](const DropSample& at) {
     const double u = at.row == row ? at.u : 1.0;
     return std::abs(at.drop - math::mixed(places.front().drop, places.back().drop, u));
   };
-  if (std::ranges::all_of(places, [&](const Place& at) { return off(at) <= tolerance; })) return;
+  if (std::ranges::all_of(places, [&](const auto& at) { return off(at) <= tolerance; })) return;
   Points line;
   for (const auto& at : places)
-    line.push_back(drop.on_line(at.row == row ? at : Place{row, 1.0, at.drop}));
+    line.push_back(drop.on_line(at.row == row ? at : DropSample{row, 1.0, at.drop}));
   std::vector<std::size_t> at;
   bends(line, 0, line.size() - 1, tolerance, at);
   for (const auto k : at) {

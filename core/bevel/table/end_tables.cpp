@@ -9,7 +9,7 @@ namespace tubecut::bevel {
 namespace {
 
 /// Returns true for errors that do not concern a single end.
-bool spoils_all(ErrorCode code) {
+bool fails_whole_request(ErrorCode code) {
   return code == ErrorCode::too_many_nodes || code == ErrorCode::cancelled;
 }
 
@@ -23,7 +23,7 @@ Result<EndTable> end_table(const joint::NodeSpec& spec, const joint::MemberEnd& 
   auto made = table(out.spec, stop);
   if (made) {
     out.table = *std::move(made);
-  } else if (spoils_all(made.error().code())) {
+  } else if (fails_whole_request(made.error().code())) {
     return tl::unexpected(made.error());
   } else {
     out.refused = made.error().issues.front();

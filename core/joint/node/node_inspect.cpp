@@ -55,9 +55,9 @@ double overhang(const NodeSpec& spec, const Applied& applied, std::size_t end) {
 }
 
 /// The inspection of one end.
-class Look {
+class EndInspection {
  public:
-  Look(const NodeSpec& spec, const Lines& lines, const Applied& applied, MemberEnd& end)
+  EndInspection(const NodeSpec& spec, const Lines& lines, const Applied& applied, MemberEnd& end)
       : spec_(spec), lines_(lines), applied_(applied), end_(end), seen_(end.cut_by.size()) {}
 
   /// Finds ghosts and the highest z on the generators of one surface.
@@ -132,7 +132,7 @@ std::vector<Presence> inspect(const NodeSpec& spec, const Lines& lines, const Ap
   const auto& m = spec.members[end.member];
   const double length = (m.finish - m.start).norm();
   const auto cutters = prepared_seats(end);
-  Look look(spec, lines, applied, end);
+  EndInspection inspection(spec, lines, applied, end);
   for (const double rho : {m.outer_radius - m.wall, m.outer_radius}) {
     end.open = end.open || !closed(cutters, rho);
     const bool nothing = std::ranges::all_of(end.cut_by, [&](const CutBy& cut) {
@@ -142,11 +142,11 @@ std::vector<Presence> inspect(const NodeSpec& spec, const Lines& lines, const Ap
              !beyond(spec.members[cut.member], cut, -most.axial);
     });
     if (nothing)
-      look.all_there();
+      inspection.all_there();
     else
-      look.scan(cutters, rho, length);
+      inspection.scan(cutters, rho, length);
   }
-  return look.take();
+  return inspection.take();
 }
 
 }  // namespace tubecut::joint::detail

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 constexpr int kGenerators = 48;      // of a wall, sampled for its depth
 constexpr int kAlong = 12;           // points of a generator inside the other member
 constexpr double kInfinite = 1e300;  // mm
-constexpr double kThin = 0.02;       // of both radii: features that the points of `look` may miss
+constexpr double kThin = 0.02;       // of both radii: features that the points of `deepen` may miss
 constexpr int kHalvings = 14;        // of the steps of the search for the deepest point
 constexpr int kMoves = 24;           // with one step size
 
@@ -68,11 +68,11 @@ struct Deepest {
 };
 
 /// A point in a member's wall: generator, and the fraction of its segment inside the other.
-struct Place {
+struct MetalPoint {
   double rho, phi, share;
 };
 
-void see(const Finished& m, const Finished& other, const Place& place, Deepest& out) {
+void see(const Finished& m, const Finished& other, const MetalPoint& place, Deepest& out) {
   const Vector3d q = m.side(place.phi);
   const auto r = reach(m, other, place.rho, q);
   if (!(r.clearance < 0.0 && r.from < r.to)) return;
@@ -84,7 +84,7 @@ void see(const Finished& m, const Finished& other, const Place& place, Deepest& 
 }
 
 /// Climbs from a point by steps that halve.
-void climb(const Finished& m, const Finished& other, Place from, const std::stop_token& stop,
+void climb(const Finished& m, const Finished& other, MetalPoint from, const std::stop_token& stop,
            Deepest& out) {
   double turn = kTwoPi / kGenerators, along = 1.0 / kAlong;
   for (int k = 0; k < kHalvings; ++k, turn *= 0.5, along *= 0.5) {
@@ -93,7 +93,7 @@ void climb(const Finished& m, const Finished& other, Place from, const std::stop
       better = false;
       for (const auto& [dphi, dshare] : {std::pair{turn, 0.0}, std::pair{-turn, 0.0},
                                          std::pair{0.0, along}, std::pair{0.0, -along}}) {
-        const Place next{from.rho, from.phi + dphi, std::clamp(from.share + dshare, 0.0, 1.0)};
+        const MetalPoint next{from.rho, from.phi + dphi, std::clamp(from.share + dshare, 0.0, 1.0)};
         const double before = out.depth;
         see(m, other, next, out);
         if (!(out.depth > before * (1.0 + 1e-9))) continue;
@@ -109,13 +109,13 @@ void keep_deeper(const Deepest& one, Deepest& out) {
 }
 
 /// Samples the wall's generators at evenly spaced points inside the other.
-void look(const Finished& m, const Finished& other, const std::stop_token& stop, Deepest& out) {
+void deepen(const Finished& m, const Finished& other, const std::stop_token& stop, Deepest& out) {
   for (const double rho : walls(m)) {
     Deepest own;
-    Place best{rho, 0.0, 0.0};
+    MetalPoint best{rho, 0.0, 0.0};
     for (int i = 0; i < kGenerators && !stop.stop_requested(); ++i)
       for (int k = 0; k <= kAlong; ++k) {
-        const Place place{rho, kTwoPi * i / kGenerators, static_cast<double>(k) / kAlong};
+        const MetalPoint place{rho, kTwoPi * i / kGenerators, static_cast<double>(k) / kAlong};
         const double before = own.depth;
         see(m, other, place, own);
         if (own.depth > before) best = place;
@@ -127,8 +127,8 @@ void look(const Finished& m, const Finished& other, const std::stop_token& stop,
 
 /// Searches from a point that both share, at its own radius and at those of the wall: finds
 /// features that are thinner than the steps between generators.
-void look_from(const Finished& m, const Finished& other, const Vector3d& shared,
-               const std::stop_token& stop, Deepest& out) {
+void deepen_from(const Finished& m, const Finished& other, const Vector3d& shared,
+                 const std::stop_token& stop, Deepest& out) {
   const Vector3d from = shared - m.start;
   const double z = from.dot(m.axis);
   const Vector3d beside = m.first.frame.rows * (from - z * m.axis);
@@ -136,7 +136,7 @@ void look_from(const Finished& m, const Finished& other, const Vector3d& shared,
   for (const double rho : {beside.norm(), m.outer, 0.5 * (m.inner + m.outer), m.inner}) {
     const auto r = reach(m, other, rho, m.side(phi));
     if (!(r.from < r.to)) continue;
-    const Place place{rho, phi, std::clamp((z - r.from) / (r.to - r.from), 0.0, 1.0)};
+    const MetalPoint place{rho, phi, std::clamp((z - r.from) / (r.to - r.from), 0.0, 1.0)};
     Deepest own;
     see(m, other, place, own);
     climb(m, other, place, stop, own);
@@ -232,9 +232,9 @@ std::optional<Overlap> overlap(FinishedMembers& members, std::size_t a, std::siz
   if (!shared) return std::nullopt;
   Deepest deepest{std::min(depth(one, *shared), depth(two, *shared)), *shared};
   for (const auto& [m, other] : {std::pair{&one, &two}, std::pair{&two, &one}}) {
-    look(*m, *other, stop, deepest);
+    deepen(*m, *other, stop, deepest);
     if (deepest.depth < kThin * (one.outer + two.outer))
-      look_from(*m, *other, *shared, stop, deepest);
+      deepen_from(*m, *other, *shared, stop, deepest);
   }
   return Overlap{a, b, deepest.depth, deepest.at};
 }

@@ -109,13 +109,13 @@ class Search {
     for (std::size_t next = 0; next < cells_.size() && next < kMostCells; ++next) {
       if (next % kBetweenLooks == 0 && stop.stop_requested()) return std::nullopt;
       const auto cell = cells_[next];  // a copy, because the list grows
-      if (auto found = look(cell)) return found;
+      if (auto found = check_cell(cell)) return found;
     }
     return std::nullopt;
   }
 
  private:
-  std::optional<Vector3d> look(const Cell& cell) {
+  std::optional<Vector3d> check_cell(const Cell& cell) {
     const double off = cell.off();
     const Vector3d q = m_.side(cell.phi);
     const Line line(m_.start + cell.rho * q - other_.start, m_.axis, other_.axis);

@@ -51,8 +51,8 @@ AxisCounts counts_of(const Machine& machine, const Counted& counted, std::size_t
 
 /// I2: checks the sum against the axis values at both ends of the program; for a part of it,
 /// rounded from the start of the whole.
-void see_sum(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f, bool stretch,
-             Worst& worst) {
+void check_sum(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f, bool stretch,
+               Worst& worst) {
   const double start = f.at(coordinates_of(job.program, 0));
   const double end = f.at(coordinates_of(job.program, job.program.size() - 1));
   const double from = stretch ? a.start : start;
@@ -63,7 +63,8 @@ void see_sum(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f,
 
 /// I3: checks for whole revolutions of a rotary axis, and zero on all others, except those that
 /// follow phi without a count per revolution.
-void see_closure(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f, Worst& worst) {
+void check_closure(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f,
+                   Worst& worst) {
   const bool goes_round = f.linear[0] != 0.0 && job.program.turns != 0;
   if (goes_round && a.axis.pulses_per_turn == 0) return;
   const double way = f.at(coordinates_of(job.program, job.program.size() - 1)) -
@@ -72,7 +73,7 @@ void see_closure(const PreparedCut& job, const AxisCounts& a, const AxisFunction
   worst.see(std::abs(static_cast<double>(a.total() - turns * a.axis.pulses_per_turn)), 0.0);
 }
 
-void see_rates(const AxisCounts& a, Worst& overflow, Worst& speed, Worst& acceleration) {
+void check_rates(const AxisCounts& a, Worst& overflow, Worst& speed, Worst& acceleration) {
   const double v = a.axis.v_max * a.period * a.pulses() + 1.0 - kStrict;
   const double second = a.axis.a_max * a.period * a.period * a.pulses() + 2.0 - kStrict;
   const auto n = static_cast<std::ptrdiff_t>(a.counts.size());
@@ -85,7 +86,7 @@ void see_rates(const AxisCounts& a, Worst& overflow, Worst& speed, Worst& accele
     acceleration.see(std::abs(a.at(k + 1) - a.at(k)), second);
 }
 
-void see_jerk(const AxisCounts& a, Worst& worst) {
+void check_jerk(const AxisCounts& a, Worst& worst) {
   if (!a.axis.j_max) return;
   const double limit = *a.axis.j_max * a.period * a.period * a.period * a.pulses() + 4.0 - kStrict;
   const auto n = static_cast<std::ptrdiff_t>(a.counts.size());
@@ -95,7 +96,7 @@ void see_jerk(const AxisCounts& a, Worst& worst) {
 }
 
 /// I8: counts the pulses beyond a soft limit.
-void see_travel(const AxisCounts& a, Worst& worst) {
+void check_travel(const AxisCounts& a, Worst& worst) {
   std::int64_t sum = a.before;
   for (std::size_t k = 0; k <= a.counts.size(); ++k) {
     if (!a.goes_on(static_cast<std::ptrdiff_t>(k))) return;
@@ -107,7 +108,7 @@ void see_travel(const AxisCounts& a, Worst& worst) {
 }
 
 /// I9: checks that an axis that reverses is slow on both sides.
-void see_reversals(const AxisCounts& a, Worst& worst) {
+void check_reversals(const AxisCounts& a, Worst& worst) {
   const double limit = a.axis.a_max * a.period * a.period * a.pulses() + 2.0;
   std::int32_t before = 0;
   for (const std::int32_t n : a.counts) {
@@ -122,8 +123,8 @@ void see_reversals(const AxisCounts& a, Worst& worst) {
 /// I16: compares the start with the axis value at the program's first point, in pulses, modulo
 /// whole revolutions of a rotary axis. Needed because a schedule within the path's tolerance may
 /// still begin away from its start.
-void see_start(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f, bool stretch,
-               Worst& worst) {
+void check_start(const PreparedCut& job, const AxisCounts& a, const AxisFunction& f, bool stretch,
+                 Worst& worst) {
   double off =
       (a.start - f.at(coordinates_of(job.program, 0))) * a.pulses() + static_cast<double>(a.before);
   if (a.axis.pulses_per_turn > 0) {
@@ -144,10 +145,10 @@ std::vector<Check> rate_invariants(const Machine& machine, const Counted& counte
   Worst overflow, speed, acceleration, third, travel, reversal;
   for (std::size_t i = 0; i < counted.counts.size() && !stop.stop_requested(); ++i) {
     const AxisCounts a = counts_of(machine, counted, i, stop);
-    see_rates(a, overflow, speed, acceleration);
-    if (jerk) see_jerk(a, third);
-    see_travel(a, travel);
-    see_reversals(a, reversal);
+    check_rates(a, overflow, speed, acceleration);
+    if (jerk) check_jerk(a, third);
+    check_travel(a, travel);
+    check_reversals(a, reversal);
   }
   std::vector<Check> out;
   add(overflow, "I4", out);
@@ -166,9 +167,9 @@ std::vector<Check> place_invariants(const PreparedCut& job, const Counted& count
   for (std::size_t i = 0; i < counted.counts.size() && !stop.stop_requested(); ++i) {
     const AxisFunction& f = job.course.axes[i];
     const AxisCounts a = counts_of(job.course.machine, counted, i, stop);
-    see_sum(job, a, f, stretch, sum);
-    if (job.program.closed) see_closure(job, a, f, closed);
-    see_start(job, a, f, stretch, begin);
+    check_sum(job, a, f, stretch, sum);
+    if (job.program.closed) check_closure(job, a, f, closed);
+    check_start(job, a, f, stretch, begin);
   }
   std::vector<Check> out;
   add(sum, "I2", out);
