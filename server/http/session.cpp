@@ -16,10 +16,9 @@ namespace {
 using namespace std::chrono_literals;
 namespace asio = boost::asio;
 
-constexpr int kReadsPerTurn = 8;      // then another connection's turn
-constexpr int kRequestsPerTurn = 32;  // refused at once, by rate or for want of room
-/// A request may be on its way on an idle connection: its answer tells the client to close.
-constexpr auto kNextWhileDraining = 500ms;
+constexpr int kReadsPerTurn = 8;            // then another connection's turn
+constexpr int kRequestsPerTurn = 32;        // refused at once, by rate or for want of room
+constexpr auto kNextWhileDraining = 500ms;  // a request may be on its way on an idle connection
 /// A client that still sends reads no answer: its bytes are dropped until it pauses, or is done.
 constexpr auto kLingerTime = 1s;  // of silence
 constexpr std::size_t kLingerBytes = 64u << 20;
