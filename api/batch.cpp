@@ -40,7 +40,7 @@ std::string read_id(Reader& in) {
                                       : ErrorCode::bad_text,
             .pointer = "id",
             .limit = Json{static_cast<double>(kLongestId)},
-            .hint = "a text of 1 to that many bytes that shows something"},
+            .hint = "a text of 1 to that many bytes with a visible character"},
            field);
   return {};
 }

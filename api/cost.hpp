@@ -23,7 +23,7 @@ namespace tubecut::api {
   X(table_with_kerf, 7.5e-3, "bevel table with a kerf")                                      \
   X(table_point, 20e-6, "point of a bevel table")                                            \
   X(table_point_of_cutter, 220e-9, "point of a bevel table, for each cutter")                \
-  X(beam_pair, 270e-9, "two points of a table or a hole no further apart than its kerf")     \
+  X(beam_pair, 270e-9, "two points of a table or a hole within its kerf of each other")      \
   X(rectangular_tube, 1.1e-3, "rectangular tube among the cutters")                          \
   X(elbow, 4.5e-3, "elbow among the cutters of a table or an intersection")                  \
   X(hole_point, 34e-6, "point of a hole")                                                    \

@@ -105,7 +105,7 @@ Outcome CallRun::over_budget() {
                    .unit = "s",
                    .hint =
                        "got: the estimate of the whole job's CPU, which may take three times as "
-                       "long; limit: the CPU it was given; GET /v1/limits tells the most"}};
+                       "long; limit: the CPU it was given; GET /v1/limits lists the budgets"}};
   return refuse(out);
 }
 

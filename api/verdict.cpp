@@ -133,7 +133,7 @@ std::optional<Problem> refuse_to_cut(const Verdict& verdict, const FormatName& f
   const std::string comparison(info(WarningCode::comparison_only).code);
   if (format.machine && std::ranges::find(verdict.codes, comparison) != verdict.codes.end())
     return Problem{.code = ErrorCode::comparison_only,
-                   .detail = "a machine would work by a file of format " + std::string(format.name),
+                   .detail = "a machine would run a file of format " + std::string(format.name),
                    .issues = {}};
   if (!options.torch || format.is_bundle()) return std::nullopt;  // each part separately
   if (verdict.status == "reject") {
@@ -141,14 +141,14 @@ std::optional<Problem> refuse_to_cut(const Verdict& verdict, const FormatName& f
                 .detail = "The verdict is reject: " + joined(each_once(verdict.reasons)),
                 .issues = {}};
     for (const auto& [name, value, limit] : verdict.excess)
-      out.issues.push_back({.code = ErrorCode::rejected,
-                            .pointer = "/accept/" + std::string(name),
-                            .got = Json{value},
-                            .limit = Json{limit},
-                            .unit = std::string(unit_of(name)),
-                            .hint = is_least(name)
-                                        ? "the answer has less than the request accepts"
-                                        : "the answer has more than the request accepts"});
+      out.issues.push_back(
+          {.code = ErrorCode::rejected,
+           .pointer = "/accept/" + std::string(name),
+           .got = Json{value},
+           .limit = Json{limit},
+           .unit = std::string(unit_of(name)),
+           .hint = is_least(name) ? "the answer is below the limit that the request accepts"
+                                  : "the answer is above the limit that the request accepts"});
     return out;
   }
   const auto missing = without(verdict.codes, options.acknowledged);
@@ -165,8 +165,8 @@ std::optional<Problem> refuse_to_cut(const Verdict& verdict, const FormatName& f
                   .pointer = "?acknowledge",
                   .got = Json{listed(options.acknowledged)},
                   .limit = Json{listed(verdict.codes)},
-                  .hint = verdict.codes.empty() ? "leave it out: there is nothing to acknowledge"
-                                                : "once each warning was looked at: acknowledge=" +
+                  .hint = verdict.codes.empty() ? "omit it: there is nothing to acknowledge"
+                                                : "check each warning, then add acknowledge=" +
                                                       listed(verdict.codes)}}};
 }
 

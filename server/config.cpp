@@ -46,9 +46,9 @@ auto number(double low, double high) {
 void add_network(CLI::App& app, Config& c) {
   const CLI::Range port(0, 65535);
   option(app, "host", c.host, "address to listen on; 0.0.0.0 in a container");
-  option(app, "port", c.port, "port of the service; 0 takes a free one")->check(port);
+  option(app, "port", c.port, "port of the service; if 0, a free one")->check(port);
   option(app, "admin-host", c.admin_host, "address of the admin port");
-  option(app, "admin-port", c.admin_port, "port of /livez, /readyz, /metrics; 0 takes a free one")
+  option(app, "admin-port", c.admin_port, "port of /livez, /readyz, /metrics; if 0, a free one")
       ->check(port);
   option(app, "keys", c.keys, "file of API keys, one \"identity sha256 [rate]\" a line");
   std::ignore = app.add_flag("--open", c.open, "serve beyond this machine without keys")
@@ -56,31 +56,32 @@ void add_network(CLI::App& app, Config& c) {
   option(app, "cors-origin", c.cors_origins, "origins whose pages may call, such as https://a.b")
       ->delimiter(',');
   option(app, "trusted-proxy", c.trusted_proxies,
-         "addresses or networks whose X-Forwarded-For is believed")
+         "addresses or networks whose X-Forwarded-For is trusted")
       ->delimiter(',');
   option(app, "hosts", c.hosts, "names besides its own under which Host may call it; * for any")
       ->delimiter(',');
   option(app, "machines", c.machines, "folder whose *.json files join GET /v1/machines");
   option(app, "posts", c.posts, "folder whose *.json files join GET /v1/posts");
-  option(app, "replica", c.replica, "name sent as Tubecut-Replica; empty: the host's name");
+  option(app, "replica", c.replica, "name sent as Tubecut-Replica; if empty, the host's name");
 }
 
 void add_limits(CLI::App& app, Config& c) {
   const auto seconds = number(0.01, 3600.0);
-  option(app, "connections", c.connections, "connections open at a time; then idle ones end")
+  option(app, "connections", c.connections,
+         "connections open at a time; when all are open, idle ones end")
       ->check(CLI::Range(1, 100000));
   option(app, "connections-per-client", c.connections_per_client,
-         "of those, one address's or key's at most; 0: half")
+         "of those, one address's or key's at most; if 0, half")
       ->check(CLI::Range(0, 100000));
-  option(app, "slots", c.slots, "jobs computed at a time; 0: by cgroup, affinity, machine")
+  option(app, "slots", c.slots, "jobs computed at a time; if 0, by cgroup, affinity, machine")
       ->check(CLI::Range(0, 1024));
   option(app, "queue", c.queue, "jobs that wait for a slot; more are 429")
       ->check(CLI::Range(std::size_t{0}, std::size_t{100000}));
   option(app, "memory-bytes", c.memory_bytes,
-         "for bodies, jobs and answers; 0: 60 % of what there is")
+         "for bodies, jobs and answers; if 0, 60 % of the available memory")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1} << 40));
   option(app, "budget-s", c.budget_s,
-         "CPU of any job; Tubecut-Budget-Ms lowers it; 0: by endpoint, as GET /v1/limits tells")
+         "CPU of any job; Tubecut-Budget-Ms lowers it; if 0, by endpoint, see GET /v1/limits")
       ->check([seconds](const std::string& text) {
         return text == "0" ? std::string{} : seconds(text);
       });
@@ -94,15 +95,16 @@ void add_limits(CLI::App& app, Config& c) {
   option(app, "head-s", c.head_s, "time for a request's head")->check(seconds);
   option(app, "body-s", c.body_s, "time for a request's body")->check(seconds);
   option(app, "write-s", c.write_s, "time for the client to take an answer")->check(seconds);
-  option(app, "drain-delay-s", c.drain_delay_s, "on SIGTERM: not ready, but still accepting, for")
+  option(app, "drain-delay-s", c.drain_delay_s,
+         "time to keep accepting, while not ready, when SIGTERM arrives")
       ->check(number(0.0, 3600.0));
-  option(app, "drain-s", c.drain_s, "on SIGTERM: time for accepted work")->check(seconds);
-  option(app, "log-level", c.log_level, "least level of the jobs' lines on stdout")
+  option(app, "drain-s", c.drain_s, "time for accepted work when SIGTERM arrives")->check(seconds);
+  option(app, "log-level", c.log_level, "minimum level of the jobs' lines on stdout")
       ->check(CLI::IsMember(std::vector<std::string>{"info", "warning", "error"}));
   option(app, "log-queue", c.log_queue, "log lines kept for a slow reader of stdout")
       ->check(CLI::Range(std::size_t{16}, std::size_t{1u << 20}));
   option(app, "log-directory", c.log_directory,
-         "folder for <day>/<identity>~<job>.jsonl, with --keys; empty: none");
+         "folder for <day>/<identity>~<job>.jsonl, with --keys; if empty, no files");
   option(app, "log-day-files", c.log_day.files, "files a day's folder may hold")
       ->check(CLI::Range(std::size_t{1}, std::size_t{10'000'000}));
   option(app, "log-key-files", c.log_day.key_files, "of those, one key's at most; 0: half")
@@ -143,7 +145,7 @@ int nameless_line(const std::string& file) {
 
 /// Adds the commands other than serving, each with its options.
 std::vector<std::pair<Command::Kind, CLI::App*>> add_commands(CLI::App& app, Command& command) {
-  auto* health = app.add_subcommand("health", "ask the running service whether it is ready");
+  auto* health = app.add_subcommand("health", "check whether the running service is ready");
   auto* run = app.add_subcommand("run", "answer a file without a server: the same bytes");
   run->add_option(
       "--endpoint", command.endpoint,

@@ -278,7 +278,8 @@ std::string folder_fault(const Config& c) {
   const auto& folder = c.log_directory;
   if (folder.empty()) return {};
   if (c.keys.empty())
-    return "--log-directory goes with --keys: whoever reaches the port would fill it";
+    return "--log-directory requires --keys, because otherwise everyone who reaches the port could "
+           "fill it";
   std::error_code unknown;
   if (!std::filesystem::is_directory(folder, unknown))
     return fmt::format("--log-directory: {} is no folder", folder);

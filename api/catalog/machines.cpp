@@ -173,7 +173,7 @@ void read_pin(Reader& in, const std::string& sha256) {
   if (pin && (pin->size() != sha256.size() || !std::ranges::all_of(*pin, is_hex)))
     in.issue({.code = ErrorCode::bad_text,
               .pointer = "machine_sha256",
-              .hint = "64 digits in hex, as GET /v1/machines tells"},
+              .hint = "64 hex digits; GET /v1/machines lists them"},
              in.find("machine_sha256"));
   else if (pin && *pin != sha256)
     in.issue({.code = ErrorCode::machine_mismatch,

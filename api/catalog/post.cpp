@@ -73,7 +73,7 @@ void check_line(Reader& in, const std::string& pointer, const std::string& line,
     in.issue({.code = ErrorCode::bad_text,
               .pointer = pointer,
               .got = Json{line},
-              .hint = open ? "unmatched brace" : "printable ASCII characters alone"});
+              .hint = open ? "unmatched brace" : "only printable ASCII characters"});
 }
 
 Post::Lines read_lines(Reader& in, std::string_view name, const Names& names = {}) {
@@ -116,10 +116,11 @@ std::string read_comment_end(Reader& in) {
   auto out = in.ascii_text("comment_end", 4);
   const auto kept = [](char c) { return gcode_text(std::string(1, c)) == std::string(1, c); };
   if (!std::ranges::any_of(out, kept)) return out;
-  in.issue({.code = ErrorCode::bad_text,
-            .pointer = "comment_end",
-            .hint = "signs that no text has: none of letters, digits, blanks and +-_.,:=/#"},
-           in.find("comment_end"));
+  in.issue(
+      {.code = ErrorCode::bad_text,
+       .pointer = "comment_end",
+       .hint = "a sign that texts cannot contain: not a letter, digit, blank or one of +-_.,:=/#"},
+      in.find("comment_end"));
   return {};
 }
 
@@ -321,7 +322,7 @@ Post decode_post(Reader& in) {
   if (out.mark_on.empty() != out.mark_off.empty())
     in.issue({.code = ErrorCode::missing_field,
               .pointer = out.mark_on.empty() ? "mark_on" : "mark_off",
-              .hint = "mark_on and mark_off go together"},
+              .hint = "mark_on and mark_off require each other"},
              nullptr);
   out.cut_begin = read_lines(in, "cut_begin");
   out.cut_end = read_lines(in, "cut_end");

@@ -128,7 +128,7 @@ void decode_stand_off(Reader& in, bool known, bevel::TableSpec& out) {
   if (known && out.root_face > 0.0 && out.contact != Contact::inner)
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "root_face_mm",
-              .hint = "a root face goes with contact inner"},
+              .hint = "a root face requires contact inner"},
              in.find("root_face_mm"));
   out.root_gap = in.number("root_gap_mm", {.min = 0.0, .max = 50.0}, 0.0);
   out.coating = in.number("coating_mm", {.min = 0.0, .max = 50.0}, 0.0);
@@ -185,7 +185,7 @@ void check_combination(const bevel::TableSpec& s, Reader& in) {
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "dihedral",
               .limit = Json{"weld_side"},
-              .hint = "inside and as_published go with root_surface outer and contact none"},
+              .hint = "inside and as_published require root_surface outer and contact none"},
              in.find("dihedral"));
   const bool goes = s.contact == Contact::none || (s.contact == Contact::outer) == outer;
   if (goes) return;
@@ -193,8 +193,8 @@ void check_combination(const bevel::TableSpec& s, Reader& in) {
             .pointer = "contact",
             .got = Json{"inner"},
             .limit = Json{outer ? "outer|none" : "inner|auto|none"},
-            .hint = outer ? "root_surface outer goes with contact outer or none"
-                          : "root_surface inner goes with contact inner, auto or none"},
+            .hint = outer ? "contact inner and auto require root_surface inner"
+                          : "contact outer requires root_surface outer"},
            in.find("contact"));
 }
 

@@ -179,7 +179,7 @@ joint::Sampling decode_sampling(Reader& in) {
                     static_cast<int>(limit::uniform_points_max)));
     if (s.has("metric") && s.has("uniform_points") && !s.has("tolerance_mm")) {
       s.note("metric");
-      const char* hint = "metric goes with tolerance_mm";
+      const char* hint = "metric requires tolerance_mm";
       s.issue({.code = ErrorCode::missing_field, .pointer = "tolerance_mm", .hint = hint});
       s.issue({.code = ErrorCode::unknown_field, .pointer = "metric", .hint = hint},
               s.find("metric"));

@@ -51,7 +51,7 @@ DatumChoice decode_datum(Reader& in, Datum fallback, bool has_up) {
     if (known)
       in.issue({.code = ErrorCode::unsupported_combination,
                 .pointer = "seam_deg",
-                .hint = "goes with datum seam"},
+                .hint = "requires datum seam"},
                in.find("seam_deg"));
   }
   if (known && out.datum == Datum::up && !has_up)
@@ -102,7 +102,7 @@ void decode_member(Reader& in, PartRequest& out) {
       h.issue({.code = ErrorCode::bad_choice,
                .pointer = "member",
                .got = Json{branch},
-               .hint = "a member cannot stand on itself"});
+               .hint = "a member cannot be set on itself"});
     // Members that are refused may be those that state it.
     static constexpr joint::Joint kUnknown{};
     const auto* stated = joint::stated_joint(m.node, m.member, other);
@@ -139,7 +139,7 @@ joint::Joint decode_end_joint(Reader& in, const joint::Partner* partner) {
   if (kind && !goes)
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "kind",
-              .hint = set_in ? "only a tube is entered" : "a mitre's cutter is its plane"},
+              .hint = set_in ? "only a tube can be entered" : "a mitre's cutter is its plane"},
              in.find("kind"));
   if (!set_in) return out;
   const double deepest = partner == nullptr || !goes ? kDiameter.max / 2.0 : deepest_of(*partner);
@@ -170,7 +170,7 @@ void decode_end_joints(Reader& in, const std::string& end, bevel::TableSpec& out
     if (out.stated[index])
       j.issue({.code = ErrorCode::duplicate_id,
                .pointer = "cutter",
-               .hint = "how this cutter is joined is said already"},
+               .hint = "the joint of this cutter is already stated"},
               j.find("cutter"));
     out.stated[index] = joint;
     return 0;

@@ -11,8 +11,7 @@ namespace tubecut::api {
 namespace {
 
 constexpr std::array kPresets{Option<Preset>{"tube_laser", Preset::tube_laser}};
-constexpr std::string_view kUntilted =
-    "preset tube_laser never tilts the head; leave this field out";
+constexpr std::string_view kUntilted = "preset tube_laser never tilts the head; omit this field";
 
 /// Decodes the only choice that the preset permits, also if the field is absent.
 template <class E, std::size_t N>
@@ -69,13 +68,13 @@ Preset decode_preset(Reader& in) {
 
 void check_accepts(Reader& in, Preset preset) {
   if (preset == Preset::tube_laser) return;
-  for (const auto name : kEndAccepts) refuse_limit(in, name, "goes with preset tube_laser");
-  for (const auto name : kPartAccepts) refuse_limit(in, name, "goes with preset tube_laser");
+  for (const auto name : kEndAccepts) refuse_limit(in, name, "requires preset tube_laser");
+  for (const auto name : kPartAccepts) refuse_limit(in, name, "requires preset tube_laser");
 }
 
 void check_seam_limit(Reader& in, Preset preset, bool seam_known) {
   if (preset == Preset::tube_laser && !seam_known)
-    refuse_limit(in, kPartAccepts.back(), "where the seam lies is said by datum seam");
+    refuse_limit(in, kPartAccepts.back(), "requires datum seam, which gives the seam's position");
 }
 
 bevel::GrooveRule decode_square_groove(Reader& in) {

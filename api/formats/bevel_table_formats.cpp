@@ -102,8 +102,8 @@ Chart b_curve(const bevel::TableSpec& spec, const bevel::Table& table, const Cap
   Chart out{.title = "Cutting angle B round the tube",
             .x_label = "phi, °",
             .y_label = "B, °, " + called(name_of_b_sign(table), Term::value),
-            .series = {curve("as the groove asks", table.b_raw, "#a2998c", true),
-                       curve("least that clears the partners", table.b_required, "#2c6a9b"),
+            .series = {curve("as the groove requires", table.b_raw, "#a2998c", true),
+                       curve("minimum that clears the partners", table.b_required, "#2c6a9b"),
                        curve("as the torch follows it", table.b, "#c2571a")},
             .bands = partner_bands(table, caption),
             .limits = torch_limits(spec, table)};

@@ -49,7 +49,7 @@ std::string groove_svg(const groove::GrooveSpec& spec, const groove::Groove& g,
        .series = {
            {.name = "height", .x = omega, .y = each(g.sections, [](S s) { return s.height; })}}}};
   if (g.compare)
-    charts.push_back({.title = "Filler area per section: ours beside a fixed bevel",
+    charts.push_back({.title = "Filler area per section, compared with a fixed bevel",
                       .x_label = "section omega, °",
                       .y_label = "filler area, mm²",
                       .series = {{.name = "ours",
@@ -98,7 +98,7 @@ std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& p
                     .y = um([](P p) { return p.before.over; }),
                     .color = "#c2571a"},
                    {.name = "undercut", .x = omega, .y = um([](P p) { return p.before.under; })}}},
-       {.title = "After: what the optimised position leaves",
+       {.title = "After: overcut of the optimised position",
         .x_label = "section omega, °",
         .y_label = "µm",
         .series = {{.name = "overcut",

@@ -68,7 +68,7 @@ void read_inner_common_fields(Reader& in) {
   if (in.has("accept"))
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "accept",
-              .hint = "is judged only where this request is sent by itself; leave it out here"},
+              .hint = "applies only if this request is sent by itself; omit it here"},
              in.find("accept"));
 }
 

@@ -102,7 +102,7 @@ std::vector<FieldIssue> program_issues(const std::string& format, const FormatOp
       Rule{"lead_mm", "mm", led, false, lit, true,
            "a pierce on the finished edge scraps it; above 0"},
       Rule{"pivot_length_mm", "mm", has_pivot, false, by_us && !pairs, !pairs,
-           pairs ? kOfAxes : "the tip's height is in the program where the torch is lit"},
+           pairs ? kOfAxes : "if the torch is lit, the program must contain the tip's height"},
       Rule{"pierce_height_mm", "mm", o.pierce_height.has_value(), table, by_us, heights,
            by_us ? kLit : height},
       Rule{"pierce_delay_s", "s", o.pierce_delay.has_value(), table, by_us, !by_control,

@@ -29,12 +29,13 @@ std::optional<FieldIssue> number_issue(std::string_view json, const std::stop_to
   if (!bad) return std::nullopt;
   auto& text = bad->text;
   if (text.size() > kShown) text = text.substr(0, kShown) + "...";
-  return FieldIssue{.code = ErrorCode::out_of_range,
-                    .pointer = std::move(bad->pointer),
-                    .got = Json{std::move(text)},
-                    .limit = Json{bad->fault.limit},
-                    .hint = std::string(bad->fault.reason) +
-                            ": a double of IEEE 754 does not hold it; send what was meant"};
+  return FieldIssue{
+      .code = ErrorCode::out_of_range,
+      .pointer = std::move(bad->pointer),
+      .got = Json{std::move(text)},
+      .limit = Json{bad->fault.limit},
+      .hint = std::string(bad->fault.reason) +
+              ": an IEEE 754 double cannot hold it exactly; send a number within the limit"};
 }
 
 }  // namespace tubecut::api

@@ -140,7 +140,7 @@ std::vector<std::string> read_acknowledged(Reader& in, bool torch) {
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "acknowledge",
               .limit = Json{"torch=on"},
-              .hint = "acknowledge goes with torch=on"},
+              .hint = "acknowledge requires torch=on"},
              in.find("acknowledge"));
   return out;
 }
@@ -158,7 +158,7 @@ std::shared_ptr<const Post> read_post(Reader& in, std::vector<FieldIssue>& withi
   if (name && in.has("dialect"))
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "dialect",
-              .hint = "post names the post already; leave dialect out"},
+              .hint = "post already names the post; omit dialect"},
              in.find("dialect"));
   if (name && name->starts_with('{'))
     if (auto own = inline_post(*name, "?post", within)) return own;
@@ -186,7 +186,7 @@ std::optional<torch::Tabs> read_tabs(Reader& in) {
       in.issue({.code = ErrorCode::unsupported_combination,
                 .pointer = name,
                 .limit = Json{"tabs"},
-                .hint = "goes with tabs, how many of them"},
+                .hint = "requires tabs, their number"},
                in.find(name));
   return any ? std::optional(out) : std::nullopt;
 }

@@ -259,7 +259,7 @@ std::string Reader::text(std::string_view name, std::size_t longest) {
     bad.limit = Json{static_cast<double>(longest)};
     bad.hint = value->empty() || shows_something(*value)
                    ? "1 to that many visible characters"
-                   : "it consists of blanks or of characters that are not seen";
+                   : "it consists only of blanks or invisible characters";
     issue(std::move(bad), field);
     return {};
   }
@@ -273,7 +273,7 @@ std::string Reader::ascii_text(std::string_view name, std::size_t longest) {
     issue({.code = ErrorCode::bad_text,
            .pointer = std::string(name),
            .got = Json{out},
-           .hint = "printable ASCII characters alone: it becomes a word of a program"});
+           .hint = "only printable ASCII characters, because it becomes a word of a program"});
     return {};
   }
   return out;

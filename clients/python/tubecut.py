@@ -825,7 +825,7 @@ class Client:
                 return
             id_ = members["id"][0]
             if id_ not in known:
-                raise ProtocolError(f"an answer to {id_!r}, which was not asked")
+                raise ProtocolError(f"an answer to {id_!r}, which was not requested")
             yield self._result(text, members)
 
     def _result(self, text: str, members: Mapping[str, Tuple[Any, int, int]]) -> BatchResult:

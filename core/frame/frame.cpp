@@ -241,7 +241,7 @@ Result<End> detail::end_at(const FrameSpec& spec, std::size_t index) {
   if (std::abs(start - finish) > kEquallyNear) return start < finish ? End::start : End::finish;
   return fail({.code = ErrorCode::ambiguous_connection,
                .member = at_joint(index),
-               .hint = "both ends are equally near; say which with end"});
+               .hint = "both ends are equally near; select one with end"});
 }
 
 Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop) {

@@ -42,7 +42,7 @@ std::vector<Issue> check_issues(const MillPathSpec& spec) {
            .got = double(spec.positions),
            .limit = double(most),
            .hint =
-               "so many may be looked at by the check's points, pitch and window" +
+               "the largest number for the check's points, pitch and window" +
                std::string(spec.optimise.method == Method::annealing ? " with annealing" : "")});
   if (spec.optimise.hold != Hold::tip && spec.optimise.hold != Hold::pivot)
     refuse(ErrorCode::setup, "optimise/hold", double(spec.optimise.hold), 1.0, "");

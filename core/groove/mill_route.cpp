@@ -23,14 +23,14 @@ class Route {
       if (!count) return failed(count.error(), shop_.omega(i));
       for (int k = 0; k < *count; ++k) out.push_back(i + double(k) / *count);
       if (out.size() > std::size_t(most))
-        return fail({.code = ErrorCode::too_many_nodes,
-                     .member = most < kMaxPositions ? "check" : "setup/pivot_length",
-                     .got = double(out.size()),
-                     .limit = double(most),
-                     .hint = "positions that keep the axes' sag below 0.001 mm" +
-                             std::string(most < kMaxPositions
-                                             ? ", each looked at by so many points and rulings"
-                                             : "")});
+        return fail(
+            {.code = ErrorCode::too_many_nodes,
+             .member = most < kMaxPositions ? "check" : "setup/pivot_length",
+             .got = double(out.size()),
+             .limit = double(most),
+             .hint = "positions that keep the axes' sag below 0.001 mm" +
+                     std::string(most < kMaxPositions ? ", each checked at all points and rulings"
+                                                      : "")});
     }
     return out;
   }

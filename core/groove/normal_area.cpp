@@ -130,7 +130,7 @@ Result<void> refuse(const Joint& joint, const Furthest& worst) {
        .hint = "at omega " + degrees_text(worst.omega) + " the plane normal to the seam " +
                (found ? "cuts " + brief(worst.area) + " mm2 of filler, not " + brief(joint.area)
                       : "runs along the groove") +
-               "; ask for equal areas in axial sections"});
+               "; request equal areas in axial sections"});
 }
 
 /// Sets the joint's area to that of its normal section at the kept angle, and keeps the axial area

@@ -238,8 +238,8 @@ bool Batch::begin_line(std::string_view line) {
   paid_ = true;
   const auto job = job_of(line);
   if (!fits) {
-    refuse_line(job->request, {ErrorCode::body_too_large,
-                               "This replica's memory has no room for a line of that size."});
+    refuse_line(job->request,
+                {ErrorCode::body_too_large, "The line exceeds this replica's free memory."});
   } else if (!has) {
     refuse_line(job->request, {ErrorCode::overloaded, "The memory for jobs is in use."});
   } else {

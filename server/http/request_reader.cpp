@@ -93,10 +93,10 @@ class Parser final : public http::basic_parser<true> {
 std::string reason(const Code& ec, bool too_many_fields) {
   if (too_many_fields) return "The head has too many fields.";
   if (ec == http::error::bad_content_length) {
-    return "Content-Length is not a whole number, or stands beside another length.";
+    return "Content-Length is not a whole number, or another length is sent too.";
   }
   if (ec == http::error::bad_transfer_encoding) {
-    return "Transfer-Encoding stands beside another length.";
+    return "Transfer-Encoding is sent together with another length.";
   }
   if (ec == http::error::bad_version) return "The version is neither HTTP/1.1 nor HTTP/1.0.";
   return fmt::format("The request's head is malformed ({}).", ec.message());
@@ -169,7 +169,7 @@ std::size_t RequestReader::Impl::read_head(std::string_view bytes, std::size_t t
     return malformed(wrong, taken);
   }
   auto target = origin_form(request.target, request.method);
-  if (target.empty()) return malformed("The target is no path of this service.", taken);
+  if (target.empty()) return malformed("The target is not a path of this service.", taken);
   request.target = std::move(target);
   give_back(head);
   head_length = bytes.size();
@@ -202,7 +202,7 @@ void RequestReader::Impl::judge_body(const Code& ec, bool stuck) {
     state = State::whole;
   } else if ((ec && ec != http::error::need_more) ||
              (parser.chunked() && (stuck || on_wire > 2 * body_limit + kChunkOverhead))) {
-    malformed("The body is badly chunked.", 0);
+    malformed("The chunks of the body are malformed.", 0);
   }
 }
 

@@ -128,7 +128,7 @@ void Session::screen() {
     refuse({ErrorCode::body_too_large, fmt::format("The body is larger than {} bytes.", limit)});
   } else if (length > room) {
     refuse({ErrorCode::body_too_large,
-            fmt::format("This replica's memory has room for {} bytes of body.", room)});
+            fmt::format("The body exceeds this replica's free memory of {} bytes.", room)});
   } else {
     reader_.allow_body(room);
   }

@@ -164,7 +164,7 @@ struct Metrics::Impl {
   Family<Counter>& unproven = counter(registry, "tubecut_verification_failures_total",
                                       "Answers withheld because a check failed: each is a bug.");
   Family<Counter>& refused = counter(registry, "tubecut_refused_total",
-                                     "Requests turned away for want of room, by reason.");
+                                     "Requests refused because a limit was reached, by reason.");
   Counter& rate = refused.Add({{"reason", "rate"}});
   Family<Counter>& lines = counter(registry, "tubecut_log_lines_dropped_total",
                                    "Log lines dropped because stdout was not read.");
@@ -172,7 +172,7 @@ struct Metrics::Impl {
   Counter& files =
       counter(registry, "tubecut_log_files_dropped_total", "Jobs whose file could not be written.")
           .Add({});
-  Gauge& ready = gauge(registry, "tubecut_ready", "1 while /readyz says yes.").Add({});
+  Gauge& ready = gauge(registry, "tubecut_ready", "1 while /readyz is 200.").Add({});
   Gauge& resident = gauge(registry, "process_resident_memory_bytes", "Resident memory.").Add({});
   Counter& cpu =
       counter(registry, "process_cpu_seconds_total", "CPU of all threads, system time included.")
@@ -181,9 +181,9 @@ struct Metrics::Impl {
   Gauge& descriptors_most = gauge(registry, "process_max_fds", "The most of them.").Add({});
   Family<Counter>& reloads = counter(registry, "tubecut_reloads_failed_total",
                                      "Files read again at SIGHUP that are wrong, by kind.");
-  Family<Gauge>& configuration =
-      gauge(registry, "tubecut_configuration_info",
-            "Always 1; sha256 is of all that answers depend on beside their requests.");
+  Family<Gauge>& configuration = gauge(
+      registry, "tubecut_configuration_info",
+      "Always 1; sha256 covers everything that answers depend on in addition to their requests.");
   std::pair<std::string, Gauge*> configured;
   std::vector<std::pair<Counter*, std::uint64_t TransportStats::*>> counts;
   std::vector<std::pair<Gauge*, std::uint64_t TransportStats::*>> levels;
@@ -198,7 +198,7 @@ struct Metrics::Impl {
           "The integer raised with every change of a result bit.")
         .Add({})
         .Set(api::numerics());
-    gauge(registry, "process_start_time_seconds", "When the process began, since 1970.")
+    gauge(registry, "process_start_time_seconds", "Start time of the process, since 1970.")
         .Add({})
         .Set(begun_at());
     start_at_zero();

@@ -49,7 +49,7 @@ class Lands(FormatTest):
         for endpoint, body, name in (("bevel-tables", SADDLE, "the cut"), ("parts", part(2, 0), "cut finish")):
             acknowledge = codes_of(self.service.answer(endpoint, body))
             self.assertEqual(self.refused(endpoint, body, leads_test.query(LIT, acknowledge=acknowledge)), [("?passes", "unsupported_combination")])
-            self.assertIn(f"({name}: THE BEVEL ALONE, its land of 2 mm is left to a pass before it)", self.program(endpoint, body, "bevel"))
+            self.assertIn(f"({name}: ONLY THE BEVEL, its land of 2 mm is left to a pass before it)", self.program(endpoint, body, "bevel"))
             dry = self.service.text(endpoint, body, leads_test.query(LIT, torch="off")).decode()
             self.assertNotIn("land", dry)
         self.assertEqual(self.refused("bevel-tables", SADDLE, leads_test.query(LIT, passes="land"))[0], ("?passes", "bad_choice"))

@@ -172,7 +172,7 @@ class Svg(FormatTest):
                     self.assertAlmostEqual(float(words[at + 1]), check["value_mm"], delta=0.00501)
                     self.assertEqual(words[at + 2], check["tool"])
                     said = [MISTAKES[m] for m in check["changes_with"]]
-                    self.assertEqual(words[at + 3], ", ".join(said) or "none of them by more than 1 mm")
+                    self.assertEqual(words[at + 3], ", ".join(said) or "no mistake changes it by more than 1 mm")
                 for step in range(len(result["sequence"])):
                     self.assertTrue(any(w.startswith(f"{step + 1}  ") for w in words), step)
                 for i, hole in enumerate(result["holes"]):

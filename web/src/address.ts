@@ -46,11 +46,11 @@ export const tooLong = (hash: string) => hash.endsWith(`/${mark}`);
 export async function read(hash: string): Promise<Place | {damage: string} | null> {
   if (!hash.startsWith('#/') || hash === '#/') return null;
   const match = /^#\/([a-z-]+)(?:\/([^?]*))?(?:\?(.*))?$/.exec(hash);
-  if (!match) return {damage: 'It names nothing that this service computes.'};
+  if (!match) return {damage: 'The link names an unknown endpoint.'};
   const place: Place = {endpoint: match[1] as string, view: Object.fromEntries(new URLSearchParams(match[3] ?? ''))};
   try {
     const job = decodeURIComponent(match[2] ?? '');
-    if (job === mark) return {damage: 'The job was too long to stand in a link: its request can be copied as JSON instead.'};
+    if (job === mark) return {damage: 'The job was too long for a link: its request can be copied as JSON instead.'};
     if (job.startsWith(mark)) return {...place, body: await unpacked(job.slice(1))};
     return job ? {...place, example: job} : place;
   } catch {

@@ -107,7 +107,7 @@ export class Console {
     if (!place && hash && this.job.value) return this.remember(); // a place in this page
     if (place && 'damage' in place) return this.lose(place.damage);
     const {endpoint, example, body, view} = place ?? {...firstJob, body: undefined, view: {} as Record<string, string>};
-    if (!this.endpoints.some((e) => e.id === endpoint)) return this.lose(`Nothing here is called "${endpoint}".`);
+    if (!this.endpoints.some((e) => e.id === endpoint)) return this.lose(`There is no page called "${endpoint}".`);
     if (example && !this.examples.some((e) => e.endpoint === endpoint && e.name === example))
       return this.lose(`${endpointName(endpoint)} has no example called "${example}".`);
     batch(() => {

@@ -103,7 +103,7 @@ export const kinds: Record<string, Kind> = {
   },
   pcf: {
     questions: (importer, file, schedules) => [
-      {key: 'schedule', text: 'Schedule of pipes whose wall the file does not tell', choices: [['', 'none'], ...named(schedules)]},
+      {key: 'schedule', text: 'Schedule of pipes without a wall in the file', choices: [['', 'none'], ...named(schedules)]},
       ...boreQuestions(importer, file),
       merge,
     ],

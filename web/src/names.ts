@@ -21,7 +21,7 @@ export const endpointName = (id: string) => endpointNames[id] ?? sentence(id.rep
 const exampleNames: Record<string, string> = {
   'bevel-tables/source-000-table-1': 'Four tubes at one node, from a published table',
   'bevel-tables/source-000-table-1-as-published': 'The same four tubes, with the published angles',
-  'bevel-tables/source-002-offset-pair': 'A branch beside its chord’s axis',
+  'bevel-tables/source-002-offset-pair': 'A branch off its chord’s axis',
   'bevel-tables/k-joint-from-centre-lines': 'A brace of a K joint, from centre-lines',
   'bevel-tables/mitre': 'A mitre: two tubes end at a plane',
   'bevel-tables/table-1-five-axis-at-600-mm-min': 'Four tubes, within a machine’s speeds',
@@ -30,7 +30,7 @@ const exampleNames: Record<string, string> = {
   'bevel-tables/zones': 'Groove angles by a welding code’s zones',
   'intersections/source-000-table-1': 'Four tubes at one node, from a published table',
   'intersections/two-tubes-by-axis': 'Two tubes, given by their axes',
-  'nodes/source-002-offset-pair': 'A branch beside its chord’s axis',
+  'nodes/source-002-offset-pair': 'A branch off its chord’s axis',
   'nodes/k-joint-from-centre-lines': 'A K joint, from centre-lines',
   'nodes/k-joint-with-tables': 'A K joint, with the tables of its cuts',
   'nodes/stated-mitre': 'A mitre, stated by a member',

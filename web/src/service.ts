@@ -41,7 +41,7 @@ export const away: Problem = {
   code: 'unreachable',
   status: 0,
   title: 'The service cannot be reached.',
-  action: 'It may have been stopped, or the network is down. What was entered is kept.',
+  action: 'It may have been stopped, or the network is down. Your input is kept.',
 };
 
 export async function fetched<T>(address: string): Promise<T> {

@@ -135,7 +135,7 @@ class PartWriter {
         return fail(
             {.code = ErrorCode::joint_contradicts,
              .member = "joints/" + std::to_string(*frame_.joints[one.joint].stated) + "/" + field,
-             .hint = "another joint of this end states it otherwise"});
+             .hint = "another joint of this end contradicts it"});
       first = &(own->*of);
     }
     return first == nullptr ? Json{} : *first;

@@ -101,7 +101,7 @@ void check_zone_gaps(Reader& in, const How& how, const bevel::GrooveRule& groove
               .got = Json{how.gap},
               .limit = Json{0.0},
               .unit = "mm",
-              .hint = "the groove's zones name the root gap: leave gap_mm out"},
+              .hint = "the groove's zones set the root gap: omit gap_mm"},
              in.find("gap_mm"));
 }
 
@@ -109,7 +109,7 @@ void check_root_face(Reader& in, const bevel::TableSpec& cut) {
   if (cut.root_face > 0.0 && cut.contact != bevel::Contact::inner)
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "root_face_mm",
-              .hint = "a root face goes with contact inner"},
+              .hint = "a root face requires contact inner"},
              in.find("root_face_mm"));
 }
 
@@ -252,7 +252,7 @@ void decode_named_end(Reader& in, bool by_nearness, frame::StatedJoint& out) {
   if (by_nearness && !out.other && !in.refused())
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "end",
-              .hint = "within_mm finds the ends of members; leave it out"},
+              .hint = "within_mm finds the ends of members; omit it"},
              in.find("end"));
 }
 
@@ -274,7 +274,7 @@ void decode_joint(Reader& in, const Places& places, const bevel::TableSpec& cut,
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "hole",
               .limit = Json{"none"},
-              .hint = "what is not cut itself has no hole"},
+              .hint = "a body in others is not cut, so it has no hole"},
              in.find("hole"));
   out.cuts.push_back(decode_joint_cut(in, joint.how, out.preset, cut));
   out.spec.joints.push_back(joint);

@@ -83,7 +83,7 @@ std::optional<bevel::TableSpec> decode_tables(Reader& in, const Include& include
     in.issue({.code = ErrorCode::missing_field,
               .pointer = in.has("include") ? "include/1" : "include",
               .limit = Json{"tables"},
-              .hint = "tables are made when include names them"});
+              .hint = "requires tables in include"});
   return std::nullopt;
 }
 

@@ -81,8 +81,8 @@ void check_torch_lines(Reader& in, const motion::CutPath& contour, const TorchLi
               .got = Json{swung},
               .limit = Json{apart},
               .unit = "mm",
-              .hint = "the torch lines of point " + std::to_string(i) + " are so far apart that " +
-                      (other_way ? "B counts the other way" : "the wall is another")});
+              .hint = "the distance of the torch lines at point " + std::to_string(i) +
+                      " shows that " + (other_way ? "B counts in reverse" : "the wall differs")});
     return;
   }
 }
@@ -259,7 +259,7 @@ ScheduleRequest decode_schedule_request(Reader& in) {
         if (path.has("probe"))
           path.issue({.code = ErrorCode::unsupported_combination,
                       .pointer = "probe",
-                      .hint = "is answered only by /v1/mill-paths; leave it out here"},
+                      .hint = "is answered only by /v1/mill-paths; omit it here"},
                      path.find("probe"));
         return decode_mill_path_request(path);
       });
@@ -291,7 +291,7 @@ ScheduleRequest decode_schedule_request(Reader& in) {
     in.issue({.code = ErrorCode::missing_field,
               .pointer = "contour/scrap",
               .limit = Json{"-z|+z|inside"},
-              .hint = "a bare contour with a lead must say which side falls away"});
+              .hint = "if a bare contour has a lead, scrap must name the side that falls away"});
   out.max_periods =
       static_cast<std::int64_t>(in.binary() ? limit::periods_cbor_max : limit::periods_json_max);
   return out;

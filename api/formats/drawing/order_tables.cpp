@@ -183,17 +183,19 @@ std::string said(part::Mistake mistake) {
 std::string joined(const std::vector<part::Mistake>& mistakes) {
   std::string out;
   for (const auto one : mistakes) out += (out.empty() ? "" : ", ") + said(one);
-  return out.empty() ? "none of them by more than 1 mm" : out;
+  return out.empty() ? "no mistake changes it by more than 1 mm" : out;
 }
 
 }  // namespace
 
 void draw_checks(OrderSheets& sheets, const part::Part& part) {
   constexpr double kRow = 7.6, kMore = 3.0, kWithin = 158.0, kMistakes = 63.0;
-  draw_head(
-      sheets, "Check dimensions, in mm",
-      {{0.0, "what, and from where"}, {88.0, "by"}, {100.0, "changes with"}, {162.0, "measured"}},
-      kRow * static_cast<double>(part.check_dimensions.size()) + 3.0 * kMore);
+  draw_head(sheets, "Check dimensions, in mm",
+            {{0.0, "dimension, and its datum"},
+             {88.0, "by"},
+             {100.0, "changes with"},
+             {162.0, "measured"}},
+            kRow * static_cast<double>(part.check_dimensions.size()) + 3.0 * kMore);
   for (const auto& d : part.check_dimensions) {
     const auto from = wrapped(in_plain_words(d.measured_from), kGrey.height, kWithin);
     const auto mistakes = joined(d.changes_with);

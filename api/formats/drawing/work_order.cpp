@@ -202,7 +202,7 @@ void draw_sign_off(OrderSheets& sheets, const part::PartSpec& spec, const Captio
   constexpr double kBoxes = 14.0, kRow = 3.3;
   const auto limits = accepted(caption);
   const auto& sampling = spec.start.cut.sampling;
-  std::string line = limits.empty() ? "The request states none; general tolerance as agreed: "
+  std::string line = limits.empty() ? "The request states no limits; general tolerance as agreed: "
                                       "................"
                                     : "As the request accepts: " + limits + ".";
   if (sampling.tolerance)

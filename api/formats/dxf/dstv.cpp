@@ -88,7 +88,7 @@ std::string comments(const Lengths& l, bool constant, const Caption& c) {
   out += comment("length over the long point " + mm(l.over_long)) +
          comment("length over the short point " + mm(l.over_short)) +
          comment("length from the work point " + mm(l.work_point)) +
-         comment("length to saw, with what the torch line takes " + mm(l.saw));
+         comment("length to saw, including the cut of the torch line " + mm(l.saw));
   if (l.assumed) out += comment("no length was given: the far end is assumed");
   if (!constant)
     out += comment("the bevel varies; sidecar " + c.input_sha256.substr(0, 16) +

@@ -253,7 +253,7 @@ void tell_lands(TorchJob& job, const FormatOptions& o) {
     const auto of = cut.name.empty() ? std::string("the cut") : "cut " + cut.name;
     refuse_land(of, cut.land, o);
     if (o.passes == Passes::bevel)
-      job.process.push_back(of + ": THE BEVEL ALONE, its land of " + post_of(o).length(cut.land) +
+      job.process.push_back(of + ": ONLY THE BEVEL, its land of " + post_of(o).length(cut.land) +
                             " is left to a pass before it");
   }
   if (std::ranges::any_of(job.cuts, &torch::TorchCut::of_land))

@@ -190,7 +190,7 @@ std::string gcode_job(const Caption& caption) {
 std::string gcode_torch(const FormatOptions& options) {
   return post_of(options).comment(options.torch
                                       ? "THIS PROGRAM LIGHTS THE TORCH"
-                                      : "dry run: the torch stays off, ask with torch=on");
+                                      : "dry run: the torch stays off; torch=on lights it");
 }
 
 std::string gcode_hashes(const Caption& caption) {

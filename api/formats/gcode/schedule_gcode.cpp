@@ -246,12 +246,12 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
                                  const Caption& caption) {
   const bool contour = std::holds_alternative<motion::CutPath>(spec.cut);
   if (!contour && caption.options.torch)
-    throw UnfitOption{"torch", "a mill path has no torch; leave it out"};
+    throw UnfitOption{"torch", "a mill path has no torch; omit it"};
   const auto letters = axis_letters(s.axes);
   const auto& post = post_of(caption.options);
   if (post.is_point_pairs())
     throw UnfitOption{"post", "a schedule moves axes, and post " + post.name +
-                                  " has none: ask for point pairs of the part or the table"};
+                                  " has no axes: request point pairs of the part or the table"};
   refuse_girth(post);
   if (post.mark_on.empty() &&
       std::ranges::count(s.events, motion::EventKind::mark_on, &motion::Event::what) > 0)

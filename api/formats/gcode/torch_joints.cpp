@@ -36,12 +36,12 @@ TorchJoints::TorchJoints(double outer_radius, Leaning leaning, const FormatOptio
   };
   along_ = get(PostRole::along, true, "post", "");
   turn_ = get(PostRole::turn, true, "post", "");
-  swing_ = get(PostRole::swing, leaning.along, "post",
-               "by which the torch leans along the tube; a head that never does cuts what has the "
-               "preset tube_laser");
+  swing_ =
+      get(PostRole::swing, leaning.along, "post",
+          "that tilts the torch along the tube; if the head never tilts, use preset tube_laser");
   out_ = get(PostRole::out, pivot_ || options.axial_z, pivot_ ? "pivot_length_mm" : "axial",
              "which lifts the torch");
-  tilt_ = get(PostRole::tilt, tilts_, "post", "by which a hole's torch leans across");
+  tilt_ = get(PostRole::tilt, tilts_, "post", "that tilts a hole's torch across");
   across_ = get(PostRole::across, tilts_ && pivot_, "post",
                 "by which the pivot of a torch that leans across goes");
   if (options.axial_z) std::swap(along_.letter, out_.letter);

@@ -134,7 +134,7 @@ export const unitOf = (text: string): LengthUnit | undefined => units[parsed(tex
 function every(text: string, sizesByLayer: Record<string, Size>, found: Found, options: DxfOptions): void {
   const drawing = parsed(text);
   const unit = options.unit ?? units[drawing.unit];
-  if (!unit) throw new Trouble('the drawing does not tell its unit ($INSUNITS), and none was given');
+  if (!unit) throw new Trouble('the drawing does not state its unit ($INSUNITS), and no unit was given');
   const mm = lengths[unit];
   const name = names();
   for (const entity of drawing.entities) {

@@ -292,7 +292,7 @@ function empty({notUnderstood, asks, sources}: Found, rest: NotUnderstood[], for
 export const full = ({members}: Found): boolean => members.length > limits.members;
 
 function tooMany({notUnderstood, asks, sources}: Found): Imported {
-  const reason = `there is no frame because the file has more than ${limits.members} tubes, and a frame has at most so many: split the model`;
+  const reason = `there is no frame because the file has more than ${limits.members} tubes, which is more than a frame can have: split the model`;
   return {frame: null, notUnderstood: listed([...notUnderstood, {id: 'file', type: 'frame', reason}]), asks, sources};
 }
 

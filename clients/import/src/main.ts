@@ -7,26 +7,26 @@ import {boreMap, fields, fromCsv, fromDxf, fromIfc, fromPcf, type Imported, leng
 
 const usage = `usage: node dist/main.js FILE [options] > frame.json
 
-FILE is .ifc, .pcf, .csv, .tsv, .txt (a table) or .dxf. What is not in the frame goes to the standard error, a line each.
+FILE is .ifc, .pcf, .csv, .tsv, .txt (a table) or .dxf. Items that are not in the frame go to the standard error, one per line.
 
-  --within MM          an end joins what it comes as near as this to (5)
+  --within MM          an end joins bodies within this distance (5)
   --origin X,Y,Z       this point of the file, in mm, is the frame's origin; the service takes 1 km about it
   --merge-in-line      members that continue in line become one piece
   --fields JSON        fields of the request instead of ours, for example {"kerf_mm": 2}
   --sources FILE       writes a CSV of the ids of the frame with their entities and GUIDs
   --corner MM          IFC: corner radius of rectangular tubes that the file draws sharp; without it they are listed
   --schedule NAME      PCF: of pipes whose wall the file does not state, for example "SCH 40"
-  --bore BORE=SIZE     PCF: what a bore means: "152.4=NPS 6", "160=DN 150", "168=168.3" (outside diameter in mm), "168=168.3x7.11"
+  --bore BORE=SIZE     PCF: meaning of a bore: "152.4=NPS 6", "160=DN 150", "168=168.3" (outside diameter in mm), "168=168.3x7.11"
   --wall-attribute A   PCF: the attribute that states a wall (WALL-THICKNESS)
-  --unit UNIT          CSV, DXF: mm, cm, m, in or ft, of lengths that state no unit; CSV is in mm without it, DXF in what the drawing states
+  --unit UNIT          CSV, DXF: mm, cm, m, in or ft, of lengths that state no unit; default: mm for CSV, the drawing's unit for DXF
   --column FIELD=NAME  CSV: the column of a field (${fields.join(', ')})
   --nodes FILE         CSV: the table of nodes, if it is not in the same file (columns node, x, y, z)
   --decimal MARK       CSV: comma or point, if the numbers leave it open
   --size SIZE          CSV: of rows without their own, "114.3x6.3" (mm) or "NPS 4 SCH 40"
-  --layer NAME=SIZE    DXF: the size of what is drawn on a layer; the others are listed
+  --layer NAME=SIZE    DXF: the size of a layer's tubes; the other layers are listed
 
 ends with 0, 1 (no frame could be made), 2 (wrong usage), 3 (a frame, and something is not in it),
-4 (options are missing: the last lines state which; what could be read without them is on the standard output)
+4 (options are missing: the last lines state which; the standard output has the part that could be read without them)
 `;
 
 class Usage extends Error {}

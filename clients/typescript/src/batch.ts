@@ -94,7 +94,7 @@ async function* streamed(run: Run, address: string, jobs: Job[], told: (name: st
     const answer = parsed(text);
     if ('summary' in answer) return;
     const job = jobs[answer.line - 1];
-    if (!job || (answer.id !== null && answer.id !== job.id)) throw new ContractError(`an answer to ${answer.id}, which was not asked`);
+    if (!job || (answer.id !== null && answer.id !== job.id)) throw new ContractError(`an answer to ${answer.id}, which was not requested`);
     yield {at: job.at, reply: answer};
   }
 }

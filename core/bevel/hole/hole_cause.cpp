@@ -17,7 +17,7 @@ constexpr std::array kLess{5.0, 15.0, 30.0};     // deg, by which a cause is red
 const char* beyond_hint(Tilt tilt) {
   switch (tilt) {
     case Tilt::axial:
-      return "a swing in the axial plane alone cannot keep the hole's wall off the branch here; "
+      return "a swing in only the axial plane cannot keep the hole's wall off the branch here; "
              "tilt free can";
     case Tilt::free:
       return "the surfaces are too nearly tangent here";

@@ -89,7 +89,7 @@ void note_overhang(const HoleSpec& spec, const joint::TubeCutter& branch,
   out.push_back(
       {.code = WarningCode::wall_overhangs,
        .member = "branch",
-       .detail = "its outer surface passes up to " + brief(over) + " mm beside the chord"});
+       .detail = "its outer surface passes up to " + brief(over) + " mm outside the chord"});
 }
 
 }  // namespace tubecut::bevel

@@ -195,7 +195,7 @@ void note_nearest(const HoleSpec& spec, HoleCut& cut) {
     if (!(p.depth > joint::Tolerance{}.value)) continue;
     cut.warnings.push_back({.code = WarningCode::enters_partner,
                             .member = "branch",
-                            .detail = "nearer than the asked gap by up to " + brief(p.depth) +
+                            .detail = "nearer than the requested gap by up to " + brief(p.depth) +
                                       " mm between points, at phi " + brief(p.phi * kDegPerRad) +
                                       " deg, radius " + brief(p.radius) + " mm, z " + brief(p.z) +
                                       " mm"});

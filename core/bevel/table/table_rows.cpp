@@ -47,7 +47,7 @@ Result<void> check_untilted(const TableSpec& spec) {
                .member = !square   ? "groove/rule"
                          : reached ? "contact"
                                    : "torch",
-               .hint = "an untilted head cuts B = 0 alone"});
+               .hint = "an untilted head cuts only B = 0"});
 }
 
 Result<void> check(const TableSpec& spec) {

@@ -122,7 +122,7 @@ Result<void> check_smoothed(const TableSetup& g, const Rows& rows, Table& out) {
          .got = degrees(enters),
          .limit = "b_required_deg",
          .unit = "deg",
-         .hint = "at these phi the smoothed bevel lies below what keeps partners out of the wall"});
+         .hint = "at these phi the smoothed bevel is too small to keep partners out of the wall"});
   double worst = 0.0, at = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -178,7 +178,7 @@ void note_overhang(const TableSetup& g, Table& out) {
                             .member = "target",
                             .detail = "phi " + brief(from) + " to " + brief(to) +
                                       " deg, its outer surface passes up to " + brief(worst) +
-                                      " mm beside every partner"});
+                                      " mm outside every partner"});
   }
 }
 

@@ -73,7 +73,8 @@ Result<void> check_root_gaps(const ZonedGroove& table, const std::vector<std::si
     const auto& first = table.zones.front();
     if (zone.root_gap.has_value() != first.root_gap.has_value())
       return bad(ErrorCode::unsupported_combination, order[k],
-                 "give every zone a root gap, or none; without it the joint's own holds");
+                 "give every zone a root gap, or omit it in all zones; without it the joint's own "
+                 "applies");
     if (k == 0 || !zone.root_gap) continue;
     const auto& last = table.zones[order[k - 1]];
     const Angle band = last.dihedral_to - zone.dihedral_from + table.overlap;

@@ -305,7 +305,7 @@ export const checks = {
     await pixels(page);
     assert.equal(await canvas(page).getAttribute('data-members'), '19');
     await choose(page, 0);
-    assert.match(await facts(page), /It cannot be cut as asked\.[^]*no partner here/i);
+    assert.match(await facts(page), /It cannot be cut as requested\.[^]*no partner here/i);
     assert.ok((await lit(page)).count > 100);
     assert.equal(await page.locator('#open-item').innerText(), 'Open its request');
     clean(page);

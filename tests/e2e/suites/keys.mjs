@@ -51,12 +51,12 @@ export const checks = {
   'the console asks for the key, and works with it': (given) => asked(given, async ({browser, origin, key}) => {
     for (const width of [1280, 390]) {
       const page = await visit(browser, origin, '#/bevel-tables/mitre', {width});
-      assert.match(await page.locator('#verdict').innerText(), /asks for a key/);
+      assert.match(await page.locator('#verdict').innerText(), /requires an API key/);
       assert.ok(await page.locator('#forget').isHidden());
       await enter(page, 'Schlüssel');
-      await page.getByText('A key has no such characters.').waitFor();
+      await page.getByText('A key cannot contain such characters.').waitFor();
       await enter(page, 'tc_0000');
-      await page.getByText('The service does not know this key.').waitFor();
+      await page.getByText('Invalid API key.').waitFor();
       await enter(page, ` ${key} `);
       await answered(page);
       assert.equal(await page.locator('#verdict .pill').innerText(), 'ok');

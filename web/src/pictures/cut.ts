@@ -75,7 +75,7 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
       period: whole,
       height: 205,
       series: [
-        {name: 'before', about: 'As the groove asks for it.', values: raw, tone: 'before', dash: [5, 4]},
+        {name: 'before', about: 'As the groove requires it.', values: raw, tone: 'before', dash: [5, 4]},
         {name: 'least that clears', about: 'With less, a partner would enter the wall.', values: required, tone: 'floor', width: 1},
         {name: 'after', about: 'As the torch follows it.', values: b, tone: 'after', width: 2.2},
       ],

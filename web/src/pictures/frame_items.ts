@@ -118,7 +118,7 @@ function partFacts(given: Told, at: number): Facts {
 /** "9 alike, made as P0. Its own verdict: ok." */
 function partSaid(cut: Row, made: Answer | undefined): string {
   const alike = cut['count'] === 1 ? 'The only one of its kind' : `${cut['count']} alike, made as ${cut['part']}`;
-  return `${alike}. ${made ? `Its own verdict: ${choice(made.verdict.status)}.` : 'It cannot be cut as asked.'}`;
+  return `${alike}. ${made ? `Its own verdict: ${choice(made.verdict.status)}.` : 'It cannot be cut as requested.'}`;
 }
 
 const problemSaid = (problem: Json | undefined) => (isRow(problem) ? rowsOf(problem['errors']).map((issue) => complaint(issue as unknown as Issue)) : []);

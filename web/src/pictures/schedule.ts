@@ -139,10 +139,10 @@ export function scheduleCharts(answer: Answer, machine: Row | undefined, way: Wa
     charts.unshift({
       ...shared,
       id: 'speed',
-      title: 'Speed of each axis, share of its limit',
+      title: 'Speed of each axis, fraction of its limit',
       unit: '%',
       series: each(of),
-      limits: [{y: 100, text: 'what each axis may do'}],
+      limits: [{y: 100, text: 'the limit of each axis'}],
       within: 100,
     });
   }
@@ -183,7 +183,7 @@ function beforeChart(
     series: rowsOf(naive['axes'])
       .filter(({name}) => axes.includes(String(name)))
       .map(({name, pulses}, i) => ({name: String(name), tone: tones[i % tones.length] as string, values: most(column(pulses))})),
-    limits: [...limits].map((y) => ({y, text: 'what a period can hold'})),
+    limits: [...limits].map((y) => ({y, text: 'the capacity of a period'})),
     height: 210,
   };
 }
@@ -218,7 +218,7 @@ function tipChart(shared: Omit<Chart, 'id' | 'title' | 'series'>, request: Row, 
     series: [
       {
         name: 'tip',
-        about: 'Mean of 25 periods, on the wall that the speed is asked for.',
+        about: 'Mean of 25 periods, on the wall of the requested speed.',
         values: extremes(tipSpeeds(way, times.period), times),
         tone: 'after',
         width: 2,
@@ -322,7 +322,7 @@ export function motionFacts({result}: Answer, way?: Way): Told {
       ...(naive
         ? [
             {
-              title: 'Before: every segment at the speed asked',
+              title: 'Before: every segment at the requested speed',
               head: ['axis', ...unplanned.map((key) => term(key))],
               rows: rowsOf(naive['axes']).map((axis): (Term | string)[] => [String(axis['name']), ...unplanned.map((key) => String(axis[key] ?? '–'))]),
             },

@@ -6,7 +6,7 @@ import {Copier} from './controls';
 const most = 60000; // characters
 
 const quoted = (text: string) => `'${text.replace(/'/g, `'\\''`)}'`;
-/** The key goes by its variable's name: what is copied is pasted anywhere. */
+/** Names the key's variable instead of the key, because the copied text may be pasted anywhere. */
 const curl = (endpoint: string, body: Row) =>
   `curl -s ${keyed() ? '-H "X-Api-Key: $TUBECUT_KEY" ' : ''}-H 'Content-Type: application/json' --data ${quoted(JSON.stringify(body))} ${location.origin}${path(endpoint)}`;
 

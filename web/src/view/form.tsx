@@ -79,7 +79,7 @@ function Parts({schema: given, value, pointer}: Value) {
   const names = branches.map((branch) => sentence(contract.branchName(branches, branch)));
   return (
     <>
-      <Way pointer={pointer} title={pointer ? hintOf(schema, pointer) : 'In which way the job is given.'} names={names} chosen={chosen} change={change} />
+      <Way pointer={pointer} title={pointer ? hintOf(schema, pointer) : 'Form of the job.'} names={names} chosen={chosen} change={change} />
       <Inner schema={branches[chosen] as Schema} value={value} pointer={pointer} />
     </>
   );

@@ -32,7 +32,7 @@ async function opened(file: File, schedules: string[]): Promise<Opened> {
   const {name} = file;
   try {
     const ending = name.toLowerCase().replace(/^.*\./, '');
-    if (!Object.hasOwn(kinds, ending)) throw new Error(`It is none of ${endings.join(', ')}.`);
+    if (!Object.hasOwn(kinds, ending)) throw new Error(`Its ending is not one of ${endings.join(', ')}.`);
     const [worker, buffer] = await Promise.all([reading(), file.arrayBuffer()]);
     const order: Order = {ending, file: new Uint8Array(buffer), schedules};
     const told = await worker.ask(order);
@@ -164,7 +164,7 @@ const Heading = ({model, close}: {model: Opened; close(): void}) =>
   model.questions || model.failure !== undefined ? (
     <h3>
       {model.name}
-      <button type="button" class="right" aria-label="Close what is said of the model" onClick={close}>
+      <button type="button" class="right" aria-label="Close the messages about the model" onClick={close}>
         Close
       </button>
     </h3>
@@ -213,9 +213,9 @@ function Found({frame, notUnderstood}: Imported) {
   const missed = notUnderstood.length;
   return (
     <>
-      <p id="imported-said">{`${what} ${missed ? `${counted(missed, 'thing was', 'things were')} not understood:` : 'Nothing was left out.'}`}</p>
+      <p id="imported-said">{`${what} ${missed ? `${counted(missed, 'thing was', 'things were')} not understood:` : 'Nothing was omitted.'}`}</p>
       {missed > 0 && (
-        <ul id="not-understood" tabIndex={0} aria-label="What was not understood">
+        <ul id="not-understood" tabIndex={0} aria-label="Unsupported items">
           {notUnderstood.map(({id, type, reason: why}, i) => (
             <li key={i}>
               <b>{id}</b>

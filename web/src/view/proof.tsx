@@ -14,8 +14,8 @@ function standing(check: Check, kind: 'checks' | 'limits'): {tone: string; text:
   const whole = check.limit > 0 ? check.value / check.limit : check.value > 0 ? Infinity : 0;
   const share = Math.min(1, Math.max(0, whole));
   if (!holds(check)) return {tone: 'failed', text: 'FAILED', share};
-  if (kind === 'limits' && whole >= active) return {tone: 'active', text: 'at its limit, as it may be', share};
-  if (kind === 'checks' && whole >= near) return {tone: 'near', text: 'holds, near its limit', share};
+  if (kind === 'limits' && whole >= active) return {tone: 'active', text: 'at its limit, which is permitted', share};
+  if (kind === 'checks' && whole >= near) return {tone: 'near', text: 'passes, near its limit', share};
   return {tone: '', text: 'holds', share};
 }
 
@@ -36,7 +36,7 @@ function Measured({check}: {check: Check}) {
   );
 }
 
-const proven = 'Residuals computed from the answer by other formulas than those that made it, and the limits that it keeps.';
+const proven = 'Residuals computed from the answer by other formulas than those that made it, and its limits.';
 
 /** Measured against permitted values, as a fraction of the limit. */
 export function Proof({answer: {job, verification}}: {answer: Answer}) {

@@ -25,7 +25,7 @@ export function Result() {
     <>
       <div id="verdict" role="status" aria-live="polite">
         {lost.value !== null ? (
-          <Silence title="This link is damaged." detail={`${lost.value} Ask for it anew, or choose above what to compute.`} pill="no job" />
+          <Silence title="This link is damaged." detail={`${lost.value} Request a new link, or choose an endpoint above.`} pill="no job" />
         ) : reply.value ? (
           <Verdict reply={reply.value} focus={(pointer) => console.seek(pointer)} again={() => console.compute()} facts={said.value} />
         ) : (
@@ -97,7 +97,7 @@ function Pictures() {
           <Figures figures={figures} />
         </div>
       </div>
-      <section id="inspector" aria-label="What it is made of" hidden={!inspected}>
+      <section id="inspector" aria-label="Members, joints and parts" hidden={!inspected}>
         {inspected && <Inspector given={inspected} item={console.item.value} ways={ways} />}
       </section>
       <Charts id="charts" charts={charts} failed={console.failed} />

@@ -114,7 +114,7 @@ function Examples() {
   const console = useConsole();
   const [endpoint, example] = [console.endpoint.value, console.example.value];
   return (
-    <select id="example" title="Jobs to begin with" value={example ?? ''} onChange={(event) => console.open(endpoint, event.currentTarget.value)}>
+    <select id="example" title="Examples" value={example ?? ''} onChange={(event) => console.open(endpoint, event.currentTarget.value)}>
       {example === undefined && <option value="">A job of your own</option>}
       {console.own.map(({name}) => (
         <option key={name} value={name}>
@@ -150,7 +150,7 @@ function Choices({children}: {children: ComponentChildren}) {
       <button
         id="blank"
         type="button"
-        title="A job of your own, from the fewest fields"
+        title="New job, from the fewest fields"
         hidden={endpoint === 'replays' /* of which another page's answer is a part */}
         onClick={() => console.blank()}
       >
@@ -161,7 +161,7 @@ function Choices({children}: {children: ComponentChildren}) {
         id="preset"
         type="button"
         aria-pressed={pressed(console.body)}
-        title="Cut square to the wall, and see the gap that leaves"
+        title="Cut square to the wall, and show the remaining gap"
         hidden={!console.presetOffered}
         onClick={() => console.press()}
       >

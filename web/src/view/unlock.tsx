@@ -3,13 +3,13 @@ import {give, keyed} from '../key';
 
 /** Requests the key in place of an answer, then continues. */
 export function Unlock({go}: {go(): void}) {
-  const [title, say] = useState(keyed() ? 'The service does not know this key.' : 'This service asks for a key.');
+  const [title, say] = useState(keyed() ? 'Invalid API key.' : 'This service requires an API key.');
   const [text, type] = useState('');
   const [going, went] = useState(false);
   const enter = (event: Event) => {
     event.preventDefault();
     const given = text.trim();
-    if (!/^[!-~]+$/.test(given)) return say(given ? 'A key has no such characters.' : 'Enter a key.');
+    if (!/^[!-~]+$/.test(given)) return say(given ? 'A key cannot contain such characters.' : 'Enter a key.');
     give(given);
     went(true);
     go();

@@ -79,8 +79,8 @@ function Refusal({problem, focus}: {problem: Problem; focus: Focus}) {
 
 /** Sentence of the verdict, before the facts about the cut. */
 const meanings = {
-  made: {ok: 'Cuttable.', review: 'Look before you cut.', reject: 'Not to be cut.'},
-  known: {ok: 'Sound.', review: 'Look at this first.', reject: 'Not to be used.'},
+  made: {ok: 'Cuttable.', review: 'Review before cutting.', reject: 'Do not cut.'},
+  known: {ok: 'Sound.', review: 'Review first.', reject: 'Do not use.'},
 };
 const made = new Set(['bevel-tables', 'holes', 'parts', 'frames', 'pulse-schedules', 'mill-paths', 'replays']);
 
@@ -106,7 +106,7 @@ function Approval({answer, milliseconds, focus, facts}: {answer: Answer; millise
         </span>
       </p>
       <p class="soft">
-        <span>{passed ? `${total} of ${total} checks of its own proof hold` : `${Math.max(1, failed.length)} of ${total} checks failed`}</span>
+        <span>{passed ? `${total} of ${total} checks of the answer passed` : `${Math.max(1, failed.length)} of ${total} checks failed`}</span>
         <span class="right">answered in {milliseconds.toFixed(0)} ms</span>
       </p>
       {grouped && <FrameWarnings warnings={warnings} />}
