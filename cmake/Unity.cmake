@@ -12,6 +12,8 @@ tubecut_alone(tubecut_core core/joint contour.cpp event_phases.cpp intersection.
 tubecut_alone(tubecut_core core/joint/node node.cpp node_connect.cpp overlap.cpp shared_metal.cpp)
 tubecut_alone(tubecut_core core/joint/cutters elbow.cpp elbow_solid.cpp rectangular_tube.cpp tube.cpp)
 tubecut_alone(tubecut_core core/part member.cpp)
+tubecut_alone(tubecut_core core/section curve.cpp section.cpp)
+tubecut_alone(tubecut_core core/joint/section flat_sheets.cpp piece_events.cpp section_contour.cpp section_intersection.cpp section_length.cpp section_place.cpp section_sampling.cpp)
 tubecut_alone(tubecut_api api batch.cpp suspicion.cpp version.cpp)  # version is replaced by a server of the tests
 tubecut_alone(tubecut_api api/catalog post_units.cpp tube_sizes.cpp)
 tubecut_alone(tubecut_api api/wire cbor.cpp json.cpp reader.cpp)  # the fuzz run instruments them
@@ -20,6 +22,7 @@ tubecut_alone(tubecut_api api/endpoints/frames frame_request.cpp node_codec.cpp)
 tubecut_alone(tubecut_api api/endpoints/motion feed_curves.cpp)
 file(GLOB_RECURSE FORMATS RELATIVE ${PROJECT_SOURCE_DIR}/api/formats CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/api/formats/*.cpp)
 tubecut_alone(tubecut_api api/formats ${FORMATS})
+tubecut_alone(tubecut_api api catalog/section_sizes.cpp wire/section_tables.cpp endpoints/section_target.cpp)
 # gcc counts a class with members of a source's own types as such in the source itself, but not in a unit.
 set_target_properties(tubecut_server PROPERTIES UNITY_BUILD OFF)
 if(TUBECUT_TESTS)

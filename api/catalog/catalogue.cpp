@@ -7,6 +7,7 @@
 #include "api/batch.hpp"
 #include "api/catalog/machines.hpp"
 #include "api/catalog/posts.hpp"
+#include "api/catalog/section_sizes.hpp"
 #include "api/catalog/tube_sizes.hpp"
 #include "api/cost.hpp"
 #include "api/endpoint.hpp"
@@ -126,6 +127,21 @@ std::string tubes_page(const Context& /*context*/) {
         o.field("size", tube.name);
         o.field("outer_diameter_mm", tube.outer_diameter);
         o.field("wall_mm", tube.wall);
+        o.field("standard", tube.standard);
+      });
+    });
+    w.array("rectangular_tubes", section_sizes(), [](Writer& each, const SectionSize& tube) {
+      each.object([&](Writer& o) {
+        const auto& s = tube.section;
+        o.field("size", tube.name);
+        o.field("height_mm", s.height);
+        o.field("width_mm", s.width);
+        o.field("wall_mm", s.wall);
+        o.field("corner_radius_mm", s.corner);
+        o.field("inner_corner_radius_mm", s.inner_corner);
+        o.field("girth_mm", s.outer().girth());
+        o.field("area_mm2", section::area(s));
+        o.field("mass_kg_per_m", section::mass_per_metre(s));
         o.field("standard", tube.standard);
       });
     });

@@ -1,12 +1,15 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
+#include "api/endpoints/section_target.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/drawing/partner_names.hpp"
 #include "api/formats/intersection_formats.hpp"
+#include "api/formats/section_formats.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "api/wire/joint_names.hpp"
+#include "api/wire/section_tables.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/intersection.hpp"
 
@@ -15,21 +18,36 @@ namespace {
 
 struct IntersectionRequest : joint::IntersectionSpec {
   JointSource source;
+  std::optional<SectionTarget> section = {};  // of a target that is not round
+};
+
+/// Curves on a round target, or on a section.
+struct Curves : joint::Intersection {
+  std::optional<joint::SectionIntersection> of_section = {};
 };
 
 struct Intersections {
   using Spec = IntersectionRequest;
-  using Out = joint::Intersection;
+  using Out = Curves;
   static constexpr std::string_view kId = "intersections";
   static constexpr std::string_view kPath = "/v1/intersections";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
   static constexpr double kBudgetS = api::kBudgetS;
   static constexpr std::array<std::string_view, 0> kAccepts{};
-  static constexpr auto kChecks = kProfileChecks;
+  static constexpr auto kChecks =
+      joined(kProfileChecks,
+             std::array<CheckLimit, 1>{{{"on_section", "1e-12 of the section's reach", "mm"}}});
 
   static Spec decode(Reader& in) {
     Spec out;
-    out.source = decode_joint(in);
+    if (has_section_target(in)) {
+      in.exactly_one({"target", "node"});
+      out.section = decode_section_target(in);
+      out.source.target = target_of(*out.section);
+      out.source.partners = decode_cutters(in);
+    } else {
+      out.source = decode_joint(in);
+    }
     out.surfaces = in.choice("surfaces", joint::Surfaces::both);
     out.sampling = decode_sampling(in);
     return out;
@@ -44,9 +62,17 @@ struct Intersections {
   }
   static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    return on_node(spec.source, joint::intersect(spec, stop));
+    if (!spec.section) {
+      TRY(auto round, on_node(spec.source, joint::intersect(spec, stop)));
+      return Out{std::move(round)};
+    }
+    TRY(auto curves, joint::intersect(spec.section->section, spec, stop));
+    Out out{{.profiles = {}, .warnings = curves.warnings}};
+    out.of_section = std::move(curves);
+    return out;
   }
   static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
+    if (spec.section) return joint::verify(spec.section->section, spec, *out.of_section);
     return joint::verify(spec, out, stop);
   }
   static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
@@ -55,21 +81,34 @@ struct Intersections {
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }
 
   static void encode(const Spec& spec, const Out& out, Writer& w) {
+    if (spec.section) {
+      encode_section(*spec.section, w);
+      w.array("profiles", out.of_section->profiles,
+              [](Writer& each, const joint::SectionProfile& p) {
+                each.object([&](Writer& o) { encode_profile(p, o); });
+              });
+      return;
+    }
     w.array("profiles", out.profiles, [&](Writer& each, const joint::Profile& p) {
       each.object([&](Writer& o) { encode_profile(p, spec.sampling, o); });
     });
     if (spec.source.node) w.column("cutter_ids", cutter_ids(spec.source));
   }
 
+  static std::string print_csv(const Spec& spec, const Out& out, const Caption& caption) {
+    return spec.section ? section_csv(*out.of_section, caption)
+                        : print<intersection_csv>(spec, out, caption);
+  }
   template <auto Print>
   static std::string print(const Spec& spec, const Out& out, const Caption& caption) {
+    if (spec.section) throw no_format_of_section("csv");
     auto named = caption;
     named.partners = partner_names(caption.request, cutter_ids(spec.source), spec.partners.size());
     return Print(spec, out, named);
   }
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
-        {"csv", "text/csv", &print<intersection_csv>},
+        {"csv", "text/csv", &print_csv},
         {"svg",
          "image/svg+xml",
          &print<intersection_svg>,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "api/catalog/section_sizes.hpp"
 #include "api/catalog/tube_sizes.hpp"
 #include "api/limits.hpp"
 #include "api/wire/joint_names.hpp"
@@ -9,6 +10,9 @@
 
 namespace tubecut::api {
 namespace {
+
+/// Who cuts a target that is not round.
+constexpr std::string_view kSectionPaths = "/v1/intersections";
 
 constexpr double kBendRadiusMax = 50'000.0;  // mm; longer bends are rolled, not elbows
 
@@ -116,7 +120,13 @@ TubeSection decode_tube_section(Reader& in, bool with_wall) {
     const auto name = in.text("size");
     const auto* size = find_tube_size(name);
     if (size == nullptr) {
-      if (!name.empty())
+      if (find_section_size(name) != nullptr)
+        in.issue({.code = ErrorCode::unsupported_target,
+                  .pointer = "size",
+                  .limit = Json{"a round size"},
+                  .hint = "rectangular tubes are cut by " + std::string(kSectionPaths)},
+                 in.find("size"));
+      else if (!name.empty())
         in.issue({.code = ErrorCode::unknown_size, .pointer = "size", .hint = tube_size_hint(name)},
                  in.find("size"));
       return out;
@@ -141,7 +151,11 @@ joint::Target decode_target(Reader& in) {
     if (t.has("kind")) {
       const auto kind = t.text("kind");
       if (!kind.empty() && kind != "round")
-        t.issue({.code = ErrorCode::unsupported_target, .pointer = "kind", .limit = Json{"round"}},
+        t.issue({.code = ErrorCode::unsupported_target,
+                 .pointer = "kind",
+                 .limit = Json{"round"},
+                 .hint = "round is cut everywhere; rectangular_tube and flat_oval_tube by " +
+                         std::string(kSectionPaths)},
                 t.find("kind"));
     } else {
       t.note("kind");

@@ -1,0 +1,166 @@
+#include "api/catalog/section_sizes.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+#include <vector>
+
+#include "api/wire/field_names.hpp"
+#include "core/base/error.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using section::Standard;
+
+struct Sides {
+  double height, width;
+  std::initializer_list<double> walls;
+};
+
+// EN 10210-2, annex B: hot finished.
+const Sides kHot[] = {
+    {40, 40, {3, 4}},
+    {50, 50, {3, 4, 5}},
+    {60, 60, {3, 4, 5, 6.3}},
+    {70, 70, {4, 5, 6.3}},
+    {80, 80, {4, 5, 6.3, 8}},
+    {90, 90, {4, 5, 6.3, 8}},
+    {100, 100, {4, 5, 6.3, 8, 10}},
+    {120, 120, {5, 6.3, 8, 10, 12.5}},
+    {140, 140, {5, 6.3, 8, 10, 12.5}},
+    {150, 150, {5, 6.3, 8, 10, 12.5}},
+    {160, 160, {5, 6.3, 8, 10, 12.5}},
+    {180, 180, {5, 6.3, 8, 10, 12.5}},
+    {200, 200, {5, 6.3, 8, 10, 12.5}},
+    {250, 250, {6.3, 8, 10, 12.5}},
+    {300, 300, {6.3, 8, 10, 12.5}},
+    {50, 30, {3, 4, 5}},
+    {60, 40, {3, 4, 5}},
+    {80, 40, {3, 4, 5, 6.3}},
+    {90, 50, {4, 5, 6.3}},
+    {100, 50, {4, 5, 6.3, 8}},
+    {100, 60, {4, 5, 6.3, 8}},
+    {120, 60, {4, 5, 6.3, 8}},
+    {120, 80, {4, 5, 6.3, 8, 10}},
+    {140, 80, {4, 5, 6.3, 8, 10}},
+    {150, 100, {4, 5, 6.3, 8, 10}},
+    {160, 80, {4, 5, 6.3, 8, 10}},
+    {180, 100, {5, 6.3, 8, 10}},
+    {200, 100, {5, 6.3, 8, 10}},
+    {200, 120, {5, 6.3, 8, 10}},
+    {250, 150, {6.3, 8, 10, 12.5}},
+    {300, 200, {6.3, 8, 10, 12.5}},
+};
+
+// EN 10219-2, annex B: cold formed.
+const Sides kCold[] = {
+    {20, 20, {2}},
+    {25, 25, {2}},
+    {30, 30, {2, 3}},
+    {40, 40, {2, 3, 4}},
+    {50, 50, {2, 3, 4, 5}},
+    {60, 60, {2, 3, 4, 5}},
+    {70, 70, {3, 4, 5}},
+    {80, 80, {3, 4, 5, 6}},
+    {90, 90, {3, 4, 5, 6}},
+    {100, 100, {3, 4, 5, 6, 8}},
+    {120, 120, {4, 5, 6, 8, 10}},
+    {140, 140, {4, 5, 6, 8, 10}},
+    {150, 150, {4, 5, 6, 8, 10}},
+    {160, 160, {4, 5, 6, 8, 10}},
+    {180, 180, {5, 6, 8, 10}},
+    {200, 200, {5, 6, 8, 10, 12.5}},
+    {250, 250, {6, 8, 10, 12.5}},
+    {300, 300, {6, 8, 10, 12.5}},
+    {40, 20, {2, 3}},
+    {50, 30, {2, 3, 4}},
+    {60, 40, {2, 3, 4, 5}},
+    {80, 40, {2, 3, 4, 5}},
+    {80, 60, {3, 4, 5}},
+    {90, 50, {3, 4, 5}},
+    {100, 40, {3, 4, 5}},
+    {100, 50, {3, 4, 5, 6}},
+    {100, 60, {3, 4, 5, 6}},
+    {120, 60, {3, 4, 5, 6}},
+    {120, 80, {3, 4, 5, 6, 8}},
+    {140, 80, {4, 5, 6, 8}},
+    {150, 100, {4, 5, 6, 8}},
+    {160, 80, {4, 5, 6, 8}},
+    {180, 100, {4, 5, 6, 8, 10}},
+    {200, 100, {4, 5, 6, 8, 10}},
+    {200, 120, {4, 5, 6, 8, 10}},
+    {250, 150, {5, 6, 8, 10}},
+    {300, 200, {6, 8, 10}},
+};
+
+// ASTM A500, nominal walls.
+const Sides kAstm[] = {
+    {50.8, 50.8, {3.18, 4.78, 6.35}},         {63.5, 63.5, {3.18, 4.78, 6.35}},
+    {76.2, 76.2, {3.18, 4.78, 6.35}},         {101.6, 101.6, {3.18, 4.78, 6.35, 7.95, 9.53}},
+    {127, 127, {4.78, 6.35, 7.95, 9.53}},     {152.4, 152.4, {4.78, 6.35, 7.95, 9.53}},
+    {203.2, 203.2, {4.78, 6.35, 7.95, 9.53}}, {76.2, 50.8, {3.18, 4.78, 6.35}},
+    {101.6, 50.8, {3.18, 4.78, 6.35}},        {152.4, 101.6, {4.78, 6.35, 7.95, 9.53}},
+    {203.2, 101.6, {4.78, 6.35, 7.95, 9.53}},
+};
+
+struct Series {
+  std::span<const Sides> sides;
+  Standard standard;
+  std::string_view name, edition;
+};
+
+std::vector<SectionSize> listed() {
+  const Series kSeries[] = {{kHot, Standard::en_10210, "EN 10210", "EN 10210-2:2006"},
+                            {kCold, Standard::en_10219, "EN 10219", "EN 10219-2:2006"},
+                            {kAstm, Standard::astm_a500, "ASTM A500", "ASTM A500/A500M-21"}};
+  std::vector<SectionSize> out;
+  for (const auto& series : kSeries)
+    for (const auto& [height, width, walls] : series.sides)
+      for (const double wall : walls) {
+        const auto radii = section::corner_radii(series.standard, wall);
+        const bool square = height == width;
+        const bool astm = series.standard == Standard::astm_a500;
+        out.push_back({.name = std::string(astm     ? "HSS "
+                                           : square ? "SHS "
+                                                    : "RHS ") +
+                               shown(height) + "x" + shown(width) + "x" + shown(wall) + " " +
+                               std::string(series.name),
+                       .section = {.height = height,
+                                   .width = width,
+                                   .wall = wall,
+                                   .corner = radii.outer,
+                                   .inner_corner = radii.inner},
+                       .standard = series.edition});
+      }
+  return out;
+}
+
+}  // namespace
+
+std::span<const SectionSize> section_sizes() {
+  static const auto kSizes = listed();
+  return kSizes;
+}
+
+const SectionSize* find_section_size(std::string_view name) {
+  const auto sizes = section_sizes();
+  const auto found = std::ranges::find(sizes, name, &SectionSize::name);
+  return found == sizes.end() ? nullptr : &*found;
+}
+
+std::string section_size_hint(std::string_view name) {
+  std::vector<std::string> names, begun;
+  for (const auto& size : section_sizes()) {
+    names.push_back(size.name);
+    if (size.name.starts_with(std::string(name) + " ")) begun.push_back(size.name);
+  }
+  if (begun.size() > 1) {
+    std::string out = "did you mean one of " + begun.front();
+    for (std::size_t i = 1; i < begun.size(); ++i) out += ", " + begun[i];
+    return out + "?";
+  }
+  const auto near = begun.empty() ? nearest_name(name, names) : begun.front();
+  return near.empty() ? "GET /v1/tubes lists the sizes" : "did you mean " + near + "?";
+}
+
+}  // namespace tubecut::api

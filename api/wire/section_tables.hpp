@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+
+#include "api/wire/columns.hpp"
+#include "api/wire/writer.hpp"
+#include "core/joint/section/section_intersection.hpp"
+
+namespace tubecut::api {
+
+// The tables of a target that is not round. A column added here appears in JSON, CBOR and CSV.
+
+/// Returns the columns that name a place of an outline: girth_mm, normal_deg, face, on_corner.
+[[nodiscard]] Columns station_columns(std::span<const section::Station> at);
+/// Returns the points of one surface's profile.
+[[nodiscard]] Columns profile_columns(const joint::SectionProfile& profile);
+
+/// Returns the name of an event on the wire.
+[[nodiscard]] std::string_view event_name(joint::SectionEventKind kind);
+/// Writes one event as an object; `outer` names its surface.
+void encode_event(const joint::SectionEvent& event, bool outer, Writer& w);
+/// Writes the curve on one surface, as members of an object.
+void encode_profile(const joint::SectionProfile& profile, Writer& w);
+
+}  // namespace tubecut::api
