@@ -57,7 +57,8 @@
   X(repeated_parameter, invalid, "The query parameter is given more than once.", "Give it once.")  \
   X(unsupported_combination, invalid, "These choices cannot be combined.",                         \
     "Choose one of the combinations documented for the endpoint.")                                 \
-  X(unsupported_target, invalid, "Only round targets can be cut for now.", "Send a round target.") \
+  X(unsupported_target, invalid, "This endpoint cannot cut a target of this kind.",                \
+    "Send a round target, or use an endpoint that the hint names.")                                \
   X(unknown_size, invalid, "No tube of this name is in the catalogue.",                            \
     "Use a size listed by GET /v1/tubes, or give the dimensions.")                                 \
   X(duplicate_id, invalid, "Another one has this id.", "Give each its own id.")                    \
