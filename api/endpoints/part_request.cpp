@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/cutout_codec.hpp"
 #include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/frames/renaming.hpp"
 #include "api/endpoints/hole_codec.hpp"
@@ -91,6 +92,11 @@ void decode_member(Reader& in, PartRequest& out) {
   m.seam = datum.seam;
   decode_cut(in, false, out.preset, m.cut);
   decode_once(in, out.preset, m.cut);
+  if (found) {
+    const auto& own = m.node.members[m.member];
+    m.cut.target = {.outer_radius = own.outer_radius, .wall = own.wall};
+  }
+  out.part.cutouts = decode_cutouts(in, out.preset, m.cut);
   in.note("holes");
   if (!in.has("holes")) return;
   const double radius = found ? m.node.members[m.member].outer_radius : kDiameter.min;
@@ -239,6 +245,7 @@ void decode_direct(Reader& in, PartRequest& out) {
   decode_once(in, out.preset, once);
   decode_ends(in, once, out);
   p.partners = decode_marks(in);
+  p.cutouts = decode_cutouts(in, out.preset, once);
   in.note("holes");
   if (!in.has("holes")) return;
   in.array("holes", {.min = 0, .max = kMostHoles}, [&](Reader& h) {
@@ -328,7 +335,9 @@ Result<PartRequest> resolve(PartRequest r, const std::stop_token& stop) {
   r.member->facing = r.part.facing;
   r.member->density = r.part.density;
   TRY(auto found, part::find_member(*r.member, stop));
+  auto cutouts = std::move(r.part.cutouts);
   r.part = std::move(found.part);
+  r.part.cutouts = std::move(cutouts);
   r.start_cutters = std::move(found.start_cutters);
   r.finish_cutters = std::move(found.finish_cutters);
   r.start_ids = names(r.member->node, r.start_cutters);

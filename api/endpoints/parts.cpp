@@ -6,6 +6,7 @@
 
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/cutout_codec.hpp"
 #include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
@@ -163,6 +164,8 @@ std::vector<Measure> Parts::measure(const Spec& spec, const Out& out) {
                            {"max_extra_bevel_deg", extra * kDegPerRad},
                            {"max_b_deg", b * kDegPerRad}};
   if (out.laser) add_laser(spec, out, all);
+  for (const auto& one : measures_of_cutouts(spec.part, out, spec.seam_known()))
+    add_worst(one, all);
   return all;
 }
 
@@ -182,6 +185,7 @@ void Parts::encode(const Spec& spec, const Out& out, Writer& w) {
       encode_hole(asked.hole, placed.hole, o);
     });
   });
+  encode_cutouts(spec.part, out, spec.seam_known(), w);
   w.degrees("clocking_between_ends_deg", out.clocking);
   w.object("lengths", [&](Writer& o) { encode_lengths(out.lengths, o); });
   w.array("check_dimensions", out.check_dimensions, encode_dimension);

@@ -8,6 +8,7 @@
 
 #include "api/cost.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/cutout_codec.hpp"
 #include "api/endpoints/part_request.hpp"
 #include "api/endpoints/tube_laser.hpp"
 #include "api/limits.hpp"
@@ -34,7 +35,7 @@ struct Parts {
   static constexpr double kBudgetS = kLongBudgetS;
   static constexpr auto kAccepts =
       joined(std::array<std::string_view, 3>{"max_root_gap_mm", "max_extra_bevel_deg", "max_b_deg"},
-             kEndAccepts, kPartAccepts);
+             kEndAccepts, kPartAccepts, kCutoutAccepts);
   static constexpr auto kOwnChecks = std::to_array<CheckLimit>({
       {"hole_on_branch", "1e-6", "mm"},
       {"hole_gap", "1e-6", "mm"},
@@ -49,6 +50,9 @@ struct Parts {
       {"hole_gouge", "0.01", "mm"},
       {"hole_gouge_stated", "1e-3", "mm"},
       {"hole_left_stated", "max(5e-3, 0.02 left_mm)", "mm"},
+      {"cutout_edge", "1e-9", "mm"},
+      {"cutout_gouge", "0.01", "mm"},
+      {"cutout_volume", "1e-9, of itself", ""},
       {"placed", "1e-9 max(1, 1e-3 (radius + length))", "mm"},
       {"volume", "1e-9, of itself", ""},
       {"check_dimensions", "1e-9 max(1, 1e-3 (radius + length))", "mm"},

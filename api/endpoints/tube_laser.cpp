@@ -67,13 +67,18 @@ Preset decode_preset(Reader& in) {
 }
 
 void check_accepts(Reader& in, Preset preset) {
+  const bool cutouts = in.has("cutouts");
+  if (!cutouts)
+    for (const auto name : kCutoutAccepts) refuse_limit(in, name, "requires cutouts");
   if (preset == Preset::tube_laser) return;
   for (const auto name : kEndAccepts) refuse_limit(in, name, "requires preset tube_laser");
-  for (const auto name : kPartAccepts) refuse_limit(in, name, "requires preset tube_laser");
+  if (cutouts) return;
+  for (const auto name : kPartAccepts)
+    refuse_limit(in, name, "requires preset tube_laser or cutouts");
 }
 
 void check_seam_limit(Reader& in, Preset preset, bool seam_known) {
-  if (preset == Preset::tube_laser && !seam_known)
+  if ((preset == Preset::tube_laser || in.has("cutouts")) && !seam_known)
     refuse_limit(in, kPartAccepts.back(), "requires datum seam, which gives the seam's position");
 }
 

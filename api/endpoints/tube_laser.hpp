@@ -26,8 +26,12 @@ inline constexpr std::array<std::string_view, 3> kEndAccepts{"max_gap_mm", "max_
 inline constexpr std::array<std::string_view, 3> kPartAccepts{"min_web_mm", "min_hole_to_end_mm",
                                                               "min_seam_to_hole_mm"};
 
-/// Reports limits that have nothing to measure: without the preset, and for the seam if its
-/// position is not given.
+/// What it may hold of a part with cut-outs.
+inline constexpr std::array<std::string_view, 2> kCutoutAccepts{"min_diameter_mm",
+                                                                "min_diameter_per_wall"};
+
+/// A limit that nothing would be measured for is an issue: without the preset, and of the seam
+/// where nobody says where it lies.
 void check_accepts(Reader& in, Preset preset);
 void check_seam_limit(Reader& in, Preset preset, bool seam_known);
 

@@ -3,6 +3,7 @@
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/csv.hpp"
 #include "api/formats/drawing/development.hpp"
+#include "api/formats/drawing/part_edges.hpp"
 #include "api/formats/drawing/pdf_sheets.hpp"
 #include "api/formats/drawing/svg_sheets.hpp"
 #include "api/formats/drawing/work_order.hpp"
@@ -29,6 +30,9 @@ std::vector<std::pair<std::string, Columns>> cuts(const part::PartSpec& spec, co
                        hole_columns(spec.holes[placed.asked].hole, placed.hole)
                            .append("fit_up_", fit_up_columns(placed.hole)));
     }
+    if (step.what == part::Step::What::cutout)
+      out.emplace_back("cut-out " + cutout_tag(p.cutouts, step.index),
+                       cutout_columns(cutout::placed(p.cutouts, p.cutouts.instances[step.index])));
     const auto end = [&](const part::End& cut) {
       out.emplace_back(name_of(step.what), bevel_columns(cut.spec, cut.table));
     };

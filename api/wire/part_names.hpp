@@ -21,6 +21,7 @@ template <>
 inline constexpr auto kNames<part::Step::What> =
     std::to_array<Option<part::Step::What>>({{"mark", part::Step::What::mark},
                                              {"hole", part::Step::What::hole},
+                                             {"cutout", part::Step::What::cutout},
                                              {"finish", part::Step::What::finish},
                                              {"start", part::Step::What::start}});
 template <>

@@ -115,6 +115,21 @@ Columns hole_columns(const bevel::HoleSpec& spec, const bevel::Hole& h) {
   return out;
 }
 
+Columns cutout_columns(const bevel::Hole& rows) {
+  return Columns()
+      .degrees("phi_deg", rows.phi)
+      .column("z_mm", rows.z)
+      .column("developed_mm", rows.developed)
+      .degrees("phi_inner_deg", rows.phi_inner)
+      .column("z_inner_mm", rows.z_inner)
+      .degrees("b_deg", rows.b)
+      .degrees("a_deg", rows.a)
+      .degrees("torch_phi_deg", rows.torch_phi)
+      .column("torch_z_mm", rows.torch_z)
+      .degrees("torch_phi_inner_deg", rows.torch_phi_inner)
+      .column("torch_z_inner_mm", rows.torch_z_inner);
+}
+
 Columns fit_up_columns(const bevel::Hole& h) {
   return Columns()
       .column("root_mm", h.fit.root)

@@ -23,6 +23,8 @@ namespace tubecut::api {
                                       const joint::Sampling& sampling);
 /// Points of a hole's edge; the gaps there; points of the branch's end.
 [[nodiscard]] Columns hole_columns(const bevel::HoleSpec& spec, const bevel::Hole& hole);
+/// Of a cut-out, in the part's frame.
+[[nodiscard]] Columns cutout_columns(const bevel::Hole& rows);
 [[nodiscard]] Columns fit_up_columns(const bevel::Hole& hole);
 [[nodiscard]] Columns branch_columns(const bevel::HoleSpec& spec, const bevel::BranchEnd& end);
 

@@ -212,7 +212,17 @@
   X(cancelled, unavailable, "The job was cancelled before it was done.",                           \
     "Send the same request again.")                                                                \
   X(over_budget, timeout, "The job took longer than its budget.",                                  \
-    "Use a coarser sampling or a smaller request.")
+    "Use a coarser sampling or a smaller request.")                                                \
+  /* cut-outs */                                                                                   \
+  X(cutout_off_part, no_solution, "A cut-out does not lie wholly within the finished part.",       \
+    "Move the cut-out, change its pattern, or lengthen the part.")                                 \
+  X(cutouts_cross, no_solution, "A cut-out touches, crosses or encloses another opening.",         \
+    "Move one of them, or cut one contour for both.")                                              \
+  X(contour_open, no_solution, "The contour does not end where it begins.", "Close the contour.")  \
+  X(contour_crosses, no_solution, "The contour crosses itself or encloses nothing.",               \
+    "Correct the contour.")                                                                        \
+  X(pattern_wraps, no_solution, "The pattern reaches round the tube onto itself.",                 \
+    "Use fewer, or a smaller pitch.")
 
 // clang-format on
 namespace tubecut {

@@ -88,7 +88,9 @@
   X(land_left, cut, "The schedule cuts only the bevel; the root face below is left uncut.",       \
     "Cut the root face before: passes=both of G-code, or another way.")                           \
   X(enters_partner, cut, "Between two rows, the finished cut enters a partner.",                  \
-    "Use a finer sampling, or grind to fit here.")
+    "Use a finer sampling, or grind to fit here.")                                                \
+  X(grazes, cut, "A straight wall of the cut-out grazes the tube: the metal along it is thick.",  \
+    "Make the cut-out narrower, or lay it on the outside: wall developed.")
 // clang-format on
 
 namespace tubecut {

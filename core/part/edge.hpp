@@ -5,6 +5,11 @@
 
 namespace tubecut::part {
 
+/// A place on the part's outer edge.
+struct EdgePoint {
+  double phi = 0.0, z = 0.0;
+};
+
 /// A closed line around a tube, z over phi (rad, ascending in [0, 2 pi), two equal phases at a
 /// jump), straight between its nodes on the developed surface, because the machine interpolates in
 /// this way.

@@ -11,7 +11,9 @@
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/math/rotation.hpp"
+#include "core/part/cutout_webs.hpp"
 #include "core/part/hole_volume.hpp"
+#include "core/part/opening_order.hpp"
 #include "core/part/place.hpp"
 #include "core/part/volume.hpp"
 
@@ -120,6 +122,7 @@ Lengths lengths(const PartSpec& spec, const Part& p, const std::stop_token& stop
   out.weld = p.start.weld_length + p.finish.weld_length;
   out.volume = end_volume(p.finish.spec, f) - end_volume(p.start.spec, s) -
                holes_volume(spec.target, p, stop);
+  for (const auto& one : p.cutouts.instances) out.volume -= p.cutouts.mould_of(one).taken.volume;
   out.mass = out.volume * 1e-9 * spec.density;
   return out;
 }
@@ -139,34 +142,6 @@ std::vector<Mark> marks(const PartSpec& spec, const Part& p, double dz) {
     mark.z_from += dz;
     mark.z_to += dz;
     out.push_back(std::move(mark));
-  }
-  return out;
-}
-
-std::pair<double, double> span_of(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto x = std::ranges::minmax(a);
-  const auto y = std::ranges::minmax(b);
-  return {std::min(x.min, y.min), std::max(x.max, y.max)};
-}
-
-/// Orders the steps: marks, then holes from the free end towards the clamp, then the free end, then
-/// the end that separates the part from the clamped rest.
-std::vector<Step> sequence(const Part& p) {
-  std::vector<Step> out;
-  for (std::size_t i = 0; i < p.marks.size(); ++i)
-    out.push_back({Step::What::mark, i, p.marks[i].z_from, p.marks[i].z_to});
-  const auto first = out.size();
-  for (std::size_t i = 0; i < p.holes.size(); ++i) {
-    const auto& h = p.holes[i].hole;
-    const auto span = span_of(h.torch_z, h.torch_z_inner);
-    out.push_back({Step::What::hole, i, span.first, span.second});
-  }
-  std::stable_sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
-                   [](const Step& a, const Step& b) { return a.z_to > b.z_to; });
-  for (const bool finish : {true, false}) {
-    const auto& t = finish ? p.finish.table : p.start.table;
-    const auto span = span_of(t.torch_inner, t.torch_outer);
-    out.push_back({finish ? Step::What::finish : Step::What::start, 0, span.first, span.second});
   }
   return out;
 }
@@ -246,6 +221,34 @@ Result<void> see_holes(const PartSpec& spec, const Part& p, std::vector<Warning>
   return {};
 }
 
+/// A prism near the bore's side has far more metal along its lines than the wall is thick.
+void warn_of_grazing(const PartSpec& spec, Part& out) {
+  constexpr double kThick = 3.0;  // walls
+  const double outer = spec.target.outer_radius, inner = spec.target.inner_radius();
+  std::set<std::size_t> warned;
+  for (const auto& one : out.cutouts.instances) {
+    const auto& mould = out.cutouts.mould_of(one);
+    if (mould.laying.lay() != cutout::Lay::prism || !warned.insert(one.asked).second) continue;
+    const auto box = bounds(mould.chain);
+    const double b = std::max(box.most.y(), -box.least.y());
+    const double metal = std::sqrt(outer * outer - b * b) - std::sqrt(inner * inner - b * b);
+    if (metal > kThick * spec.target.wall)
+      out.warnings.push_back({.code = WarningCode::grazes,
+                              .member = cutout::path_of(one.asked) + "/shape",
+                              .detail = brief(metal) + " mm of metal along the line"});
+  }
+}
+
+Result<void> cut_cutouts(const PartSpec& spec, Part& out) {
+  if (spec.cutouts.all.empty()) return {};
+  TRY(auto layout, cutout::lay(spec.cutouts.all, cutout_ground(spec, out)));
+  out.cutouts = std::move(layout);
+  TRY(auto report, check_cutouts(spec, out));
+  out.cutout_report = std::move(report);
+  warn_of_grazing(spec, out);
+  return {};
+}
+
 EdgePoint edge_point(const Table& t, bool upwards) {
   const auto edge = outer_edge(t);
   const auto i = edge.extreme(upwards);
@@ -294,6 +297,17 @@ void assemble(const PartSpec& spec, Part& out, const std::stop_token& stop) {
 
 }  // namespace
 
+cutout::Ground cutout_ground(const PartSpec& spec, const Part& part) {
+  const double work = -lowest(part.start.own);
+  return {.tube = spec.target,
+          .start_work = work,
+          .finish_long = highest(part.finish.table),
+          .finish_work = work + *spec.target.length,
+          .kerf = spec.cutouts.kerf,
+          .tolerance = spec.cutouts.tolerance,
+          .most_lean = spec.cutouts.most_lean};
+}
+
 Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
   if (!spec.target.length)
     return fail({.code = ErrorCode::missing_field, .member = "target/length"});
@@ -311,6 +325,7 @@ Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
   TRY(check_left(out, *spec.target.length, stop));
   TRY(see_holes(spec, out, out.warnings, stop));
   warn_of_meeting(spec, out, out.warnings, stop);
+  TRY(cut_cutouts(spec, out));
   out.clocking = clocking_between(spec.start.cut.partners, spec.finish.cut.partners);
   out.lengths = lengths(spec, out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});

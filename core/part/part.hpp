@@ -26,7 +26,9 @@
 #include "core/base/error.hpp"
 #include "core/bevel/hole/hole.hpp"
 #include "core/bevel/table/table.hpp"
+#include "core/cutout/cutout.hpp"
 #include "core/joint/placement.hpp"
+#include "core/part/cutout_report.hpp"
 #include "core/part/dimensions.hpp"
 
 namespace tubecut::part {
@@ -55,21 +57,25 @@ struct Mark {
   double z_from = 0.0, z_to = 0.0;
 };
 
+/// Openings for no branch, and how they are cut.
+struct CutoutSpecs {
+  std::vector<cutout::Spec> all = {};
+  double kerf = 0.0;
+  double tolerance = 0.01;       // mm, of the straight ways from row to row
+  double most_lean = 0.5 * kPi;  // rad, of the torch across
+};
+
 struct PartSpec {
   joint::Target target;  // its length, between the work points, is required
   EndSpec start, finish;
   std::vector<HoleSpec> holes;
+  CutoutSpecs cutouts = {};
   Angle zero = {};                      // the part's phi = 0, in the start's frame
   joint::MemberFrame start_frame = {};  // of the start, in the world; the identity if unknown
   std::vector<Mark> partners = {};      // in the start's frame
   std::string name = {};
   double clamping = 0.0, facing = 0.0;  // allowances of the blank
   double density = 7850.0;              // kg/m^3
-};
-
-/// A point on the part's outer edge.
-struct EdgePoint {
-  double phi = 0.0, z = 0.0;
 };
 
 /// One end of the finished part.
@@ -101,9 +107,9 @@ struct Lengths {
 
 /// One operation on the blank, in the order of the list.
 struct Step {
-  enum class What { mark, hole, finish, start };
+  enum class What { mark, hole, cutout, finish, start };
   What what = What::mark;
-  std::size_t index = 0;  // of the mark or hole
+  std::size_t index = 0;  // of the mark, hole or cut-out
   double z_from = 0.0, z_to = 0.0;
 };
 
@@ -113,11 +119,13 @@ struct Part {
   std::vector<bevel::HoleSpec> hole_specs;  // rotated, in the start's frame
   std::vector<bevel::HoleCut> hole_cuts;    // in the start's frame
   std::vector<PlacedHole> holes;
+  cutout::Layout cutouts;
+  CutoutReport cutout_report;
   double clocking = 0.0;  // see clocking_between
   Lengths lengths;
   std::vector<CheckDimension> check_dimensions;
   std::vector<Mark> marks;
-  std::vector<Step> sequence;  // marks, holes from the finish on, the finish, the start
+  std::vector<Step> sequence;  // marks, openings from the finish on, the finish, the start
   std::vector<Warning> warnings;
 };
 
@@ -128,14 +136,16 @@ struct Part {
 ///         everywhere: the outer edge lies further towards +z.
 /// Errors  those of bevel::table and bevel::hole, under start/..., finish/... and holes/i/...;
 ///         member_consumed (the two cuts meet); hole_off_part (holes/i: all of it is cut off);
-///         out_of_range (no length).
-/// Accuracy  the position of a point in the world differs by at most 1e-12 of the lengths involved
-///           from the end's own.
+///         those of cutout::lay and check_cutouts; out_of_range (no length).
+/// Accuracy  a point's place in the world within 1e-12 of the lengths involved of the end's own.
 /// Source  docs/theory/parts.md.
 [[nodiscard]] Result<Part> part(const PartSpec& spec, const std::stop_token& stop = {});
 
-/// Verifies the part from its own numbers: the checks of each end and hole (the worst of each
-/// name), and the position of every point by a matrix instead of column by column.
+/// What cut-outs are laid on, once the part's ends are cut.
+[[nodiscard]] cutout::Ground cutout_ground(const PartSpec& spec, const Part& part);
+
+/// The part proved from its own numbers: each end's and hole's own proof (the worst of them all),
+/// and every point placed by a matrix instead of column by column.
 [[nodiscard]] std::vector<Check> verify(const PartSpec& spec, const Part& part,
                                         const std::stop_token& stop = {});
 

@@ -197,10 +197,19 @@ double holes_by_rings(const PartSpec& spec, const Part& p, const std::stop_token
   return sum;
 }
 
+/// What the cut-outs take, each mould once.
+double cutouts_by_rings(const Part& p) {
+  std::vector<double> each;
+  for (const auto& mould : p.cutouts.moulds) each.push_back(cutout::volume_by_rings(mould));
+  double sum = 0.0;
+  for (const auto& one : p.cutouts.instances) sum += each[one.mould];
+  return sum;
+}
+
 double volume_off(const PartSpec& spec, const Part& p, const std::stop_token& stop) {
   const double volume = ruled(p.finish.table, spec.target, p.finish.spec.root_face) -
                         ruled(p.start.table, spec.target, p.start.spec.root_face) -
-                        holes_by_rings(spec, p, stop);
+                        holes_by_rings(spec, p, stop) - cutouts_by_rings(p);
   return std::abs(p.lengths.mass / (spec.density * 1e-9) - volume) / std::abs(volume);
 }
 
@@ -247,6 +256,9 @@ std::vector<Check> verify(const PartSpec& spec, const Part& part, const std::sto
   for (std::size_t i = 0; i < part.hole_cuts.size(); ++i)
     all.see(bevel::verify(part.hole_specs[i], part.hole_cuts[i], stop), "hole_");
   auto out = all.take();
+  if (!part.cutouts.empty())
+    for (auto& check : cutout::verify(part.cutouts, cutout_ground(spec, part)))
+      out.push_back(std::move(check));
   const Vector3d start = spec.start_frame.rows * (part.frame.origin - spec.start_frame.origin);
   const double length = *spec.target.length;
   Eigen::Matrix3d over = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();

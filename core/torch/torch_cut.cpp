@@ -8,6 +8,7 @@
 #include "core/base/try.hpp"
 #include "core/bevel/table/land_pass.hpp"
 #include "core/part/place.hpp"
+#include "core/torch/centre_lead.hpp"
 
 namespace tubecut::torch {
 namespace {
@@ -63,7 +64,25 @@ TorchCut hole_cut(const bevel::HoleSpec& spec, const bevel::Hole& hole, std::str
   return out;
 }
 
-/// Returns the points without leads; of a closed path from the first to the first again.
+TorchCut cutout_cut(const part::PartSpec& spec, const part::Part& part, std::size_t index) {
+  const auto& one = part.cutouts.instances[index];
+  const auto& mould = part.cutouts.mould_of(one);
+  const auto rows = cutout::placed(part.cutouts, one);
+  TorchCut out{.name = "cut-out " + one.name + (mould.laying.far() ? ", far side" : ""),
+               .path = on_tube(spec.target, motion::Scrap::inside),
+               .kerf = spec.cutouts.kerf};
+  out.path.phi = rows.torch_phi;
+  out.path.z = rows.torch_z;
+  out.path.b = rows.b;
+  if (std::ranges::any_of(rows.a, [](double a) { return a != 0.0; })) out.path.a = rows.a;
+  for (auto* column : {&out.path.phi, &out.path.z, &out.path.b, &out.path.a})
+    if (!column->empty()) column->push_back(column->front());
+  const double turn = mould.laying.turn(mould.centre.y(), spec.target.outer_radius);
+  out.centre = {one.phi + mould.laying.phase(turn), one.z + mould.centre.x()};
+  return out;
+}
+
+/// The points as they stand; of a closed path from the first to the first again.
 motion::CutWithLead once_round(const motion::CutPath& path) {
   motion::CutWithLead out;
   for (std::size_t i = 0; i < path.phi.size(); ++i)
@@ -147,6 +166,8 @@ std::vector<TorchCut> torch_cuts(const part::PartSpec& spec, const part::Part& p
       out.push_back(hole_cut(
           spec.holes[hole.asked].hole, hole.hole,
           "hole " + std::to_string(step.index) + (branch.empty() ? "" : " for " + branch)));
+    } else if (step.what == What::cutout) {
+      out.push_back(cutout_cut(spec, part, step.index));
     } else if (step.what != What::mark) {
       out.push_back(part_end(part, step.what == What::finish));
     }
@@ -192,7 +213,12 @@ Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach,
       motion::directed(std::move(whole), motion::Direction::as_given, approach.start));
   if (!approach.lead) return TorchWay{{from.points, 0, from.points.size() - 1}, 0.0};
   TRY(const auto border, torch_border(cut, stop));
-  return way_with_lead(border, from, *approach.lead, stop);
+  auto way = way_with_lead(border, from, *approach.lead, stop);
+  if (way || !cut.centre || way.error().code() != ErrorCode::lead_blocked) return way;
+  TRY(auto from_centre, centre_lead(cut, approach.lead->overcut));
+  for (std::size_t i = 0; i < from_centre.cut_first; ++i)
+    if (motion::intrusion(border, from_centre.points[i], stop) > motion::kLeadTouch) return way;
+  return TorchWay{std::move(from_centre), 0.0};
 }
 
 Result<motion::PartBorder> torch_border(const TorchCut& cut, const std::stop_token& stop) {

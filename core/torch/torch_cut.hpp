@@ -26,6 +26,11 @@ struct TorchCut {
   double land = 0.0;     // mm: its bevel begins at a land of this height, which it does not cut
   bool of_land = false;  // true for the pass that cuts the land
   bool mark = false;
+  /// Of a cut-out: deep in its scrap, rad and mm on the outside.
+  struct Deep {
+    double phi = 0.0, z = 0.0;
+  };
+  std::optional<Deep> centre = {};
 };
 
 /// Returns the rows at which a corner of either wall's curve is a node.

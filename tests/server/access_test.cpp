@@ -309,7 +309,8 @@ TEST(JobFiles, QueueIsBoundedInBytes) {
 
 TEST(JobFiles, KeepAKeyToItsPart) {
   const auto folder = ::testing::TempDir() + "tubecut_parted_jobs";
-  ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir -p " + folder + "/2024-03-01").c_str()), 0);
+  ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir -p " + folder + "/2024-03-01").c_str()),
+            0);
   std::vector<std::string> told;
   std::uint64_t dropped = 0;
   {

@@ -308,6 +308,14 @@ Result<ScheduleRequest> resolve(ScheduleRequest request, const std::stop_token& 
                    .got = "free",
                    .limit = "axial|none",
                    .hint = "the machine's torch swings along the tube only"});
+  const auto& cutouts = resolved.part.cutouts.all;
+  for (std::size_t k = 0; k < cutouts.size(); ++k)
+    if (cutout::lay_of(cutouts[k].wall, cutouts[k].tilt) == cutout::Lay::prism)
+      return fail({.code = ErrorCode::unsupported_combination,
+                   .member = "part/cutouts/" + std::to_string(k) + "/tilt",
+                   .got = "free",
+                   .limit = "axial|none",
+                   .hint = "the machine's torch swings along the tube only"});
   request.cut = std::move(resolved);
   return request;
 }

@@ -149,6 +149,13 @@ Development developed(const part::PartSpec& spec, const part::Part& part) {
     auto& one = out.cuts.emplace_back(outline(spec.target, hole, "hole " + std::to_string(i)));
     one.label = for_branch(hole_tag(i), spec.holes[asked].name);
   }
+  const auto& layout = part.cutouts;
+  for (std::size_t i = 0; i < layout.instances.size(); ++i) {
+    const auto tag = cutout_tag(layout, i);
+    auto& one = out.cuts.emplace_back(
+        outline(spec.target, cutout::placed(layout, layout.instances[i]), "cut-out " + tag));
+    one.label = tag;
+  }
   out.marks = part.marks;
   out.whole = true;
   out.name = spec.name;

@@ -66,7 +66,8 @@ struct Development {
 /// One hole of a chord, by a name.
 [[nodiscard]] CutOutline outline(const joint::Target& chord, const bevel::Hole& hole,
                                  std::string name);
-/// A part as it is cut: start, finish, then the holes in their order, in the part's frame.
+/// A part as it is cut: start, finish, then the holes and the cut-outs in their
+/// order, in the part's frame.
 [[nodiscard]] Development developed(const part::PartSpec& spec, const part::Part& part);
 
 /// Position of a hole's label on the outside, its middle at phi: in the hole, below its upper edge

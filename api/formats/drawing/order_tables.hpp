@@ -15,15 +15,21 @@ void draw_members(OrderSheets& sheets, const Caption& caption);
 /// line, its size, its bevel.
 void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part);
 
-/// Draws the settings of a tube notcher for each round partner of an end, for shops without a
-/// torch.
+/// Each cut-out as requested, in a pattern its first one: size, place, wall, and how it is
+/// repeated.
+void draw_cutouts(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part);
+
+/// What is set at a tube notcher for each round partner of an end, where a shop has no torch for
+/// it.
 void draw_notches(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
                   const Caption& caption);
 
 /// Draws the check dimensions, on one sheet if they fit, with the mistakes that change them.
 void draw_checks(OrderSheets& sheets, const part::Part& part);
 
-/// Draws the operations on the blank, in order.
+/// What is done to the blank, in its order; several cut-outs of one request are one step.
+[[nodiscard]] std::vector<std::string> step_texts(const part::PartSpec& spec,
+                                                  const part::Part& part);
 void draw_steps(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part);
 
 }  // namespace tubecut::api

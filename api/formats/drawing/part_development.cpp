@@ -26,7 +26,7 @@ constexpr Lettering kGrey{.height = 2.2, .color = "#566370"};
 
 std::vector<Place> places_of(const part::Part& part) {
   std::vector<Place> out{place_of(part.start.table), place_of(part.finish.table)};
-  for (const auto& placed : part.holes) out.push_back(place_of(placed.hole));
+  for (const auto& one : openings(part)) out.push_back(place_of(one.rows));
   for (const auto& mark : part.marks)
     if (mark.kind != part::Mark::Kind::datum_line)
       out.push_back({.z_from = mark.z_from, .z_to = mark.z_to});
@@ -50,10 +50,11 @@ std::vector<Place> joined(const std::vector<Place>& places, double room) {
 
 /// A phase off all holes: 0, else of the multiples of 15 deg the one furthest from them.
 double opening(const part::Part& part) {
+  const auto all = openings(part);
   const auto off = [&](double phi) {
     double least = kPi;
-    for (const auto& placed : part.holes) {
-      const auto place = place_of(placed.hole);
+    for (const auto& one : all) {
+      const auto place = place_of(one.rows);
       const double after = turned_from(place.phi_from, phi) - place.phi_from;
       const double width = place.phi_to - place.phi_from;
       least = std::min(least, after <= width ? -1.0 : std::min(after - width, kTwoPi - after));
@@ -108,8 +109,8 @@ class Stretch {
     if (holds(place_of(part_.start.table))) end(part_.start, spec_.start.welded, "start", 0);
     if (holds(place_of(part_.finish.table)))
       end(part_.finish, spec_.finish.welded, "finish", part_.start.spec.partners.size());
-    for (std::size_t i = 0; i < part_.holes.size(); ++i)
-      if (holds(place_of(part_.holes[i].hole))) hole(i);
+    for (std::size_t i = 0; i < openings_.size(); ++i)
+      if (holds(place_of(openings_[i].rows))) opening(i);
     for (const auto& mark : part_.marks)
       if (mark.kind != part::Mark::Kind::datum_line &&
           holds({.z_from = mark.z_from, .z_to = mark.z_to}))
@@ -182,9 +183,9 @@ class Stretch {
     if (!t.cutter.empty()) end_run(t.cutter.back());
   }
 
-  /// Draws the hole again one turn further if it reaches beyond the lower edge.
-  void hole(std::size_t i) {
-    const auto& hole = part_.holes[i].hole;
+  /// Drawn again a turn on where it reaches beyond the lower edge.
+  void opening(std::size_t i) {
+    const auto& [hole, tag, tagged] = openings_[i];
     const auto place = place_of(hole);
     const double turn = turned_from(plan_.opened, place.phi_from) - place.phi_from;
     for (const double more : {0.0, -kTwoPi}) {
@@ -198,9 +199,10 @@ class Stretch {
       canvas_.polyline(std::move(edge), {.width = 0.35, .fill = "#ffffff"}, id, true);
       canvas_.polyline(std::move(inner), kInner, id + "-inner", true);
     }
+    if (!tagged) return;
     const auto above = at(place.phi_from + turn, 0.5 * (place.z_from + place.z_to));
     const auto below = at(place.phi_to + turn, 0.5 * (place.z_from + place.z_to));
-    canvas_.text({above.x, above.y + 3.4 < top_.y ? above.y + 0.8 : below.y - 2.8}, hole_tag(i),
+    canvas_.text({above.x, above.y + 3.4 < top_.y ? above.y + 0.8 : below.y - 2.8}, tag,
                  {.height = 2.6, .anchor = Anchor::middle, .bold = true});
   }
 
@@ -214,8 +216,8 @@ class Stretch {
       canvas_.line({where.x, where.y - 1.0}, {where.x, where.y + 1.0}, kMark);
     }
     double below = where.y - 1.0;
-    for (const auto& placed : part_.holes) {  // a branch's name is below its hole
-      const auto place = place_of(placed.hole);
+    for (const auto& one : openings_) {  // a branch's name stands below its hole
+      const auto place = place_of(one.rows);
       const double phi_in = turned_from(place.phi_from, phi);
       if (phi_in <= place.phi_to && mark.z_from >= place.z_from && mark.z_to <= place.z_to)
         below = std::min(
@@ -233,6 +235,7 @@ class Stretch {
   const part::PartSpec& spec_;
   const part::Part& part_;
   DrawingPoint top_;
+  std::vector<Opening> openings_ = openings(part_);
 };
 
 /// Annotations next to the segments of a strip.
@@ -304,11 +307,9 @@ class Beside {
     std::vector<double> all{0.0};
     for (const auto* end : {&part_.start, &part_.finish})
       for (const double z : {end->longest.z, end->shortest.z}) all.push_back(z);
-    for (const auto& placed : part_.holes) {
-      const auto place = place_of(placed.hole);
-      all.push_back(place.z_from);
-      all.push_back(place.z_to);
-    }
+    for (const auto& one : openings(part_))
+      if (const auto place = place_of(one.rows); one.tagged)
+        all.insert(all.end(), {place.z_from, place.z_to});
     std::erase_if(all, [&](double z) { return !holds(z); });
     std::ranges::sort(all);
     const auto again = std::ranges::unique(all, [](double a, double b) { return b - a < 0.005; });

@@ -41,5 +41,17 @@ struct Place {
 
 /// A hole's name on a drawing: "H1".
 [[nodiscard]] std::string hole_tag(std::size_t i);
+/// A cut-out's: its id, with the side of one that goes through both walls.
+[[nodiscard]] std::string cutout_tag(const cutout::Layout& layout, std::size_t i);
+
+/// A hole or a cut-out of a part, in its frame.
+struct Opening {
+  bevel::Hole rows;
+  std::string tag;
+  bool tagged = true;  // where there is room for its name
+};
+/// The holes, then the cut-outs. More cut-outs than `kMostTagged` have no tags.
+[[nodiscard]] std::vector<Opening> openings(const part::Part& part);
+inline constexpr std::size_t kMostTagged = 24;
 
 }  // namespace tubecut::api

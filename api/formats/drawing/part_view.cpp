@@ -58,7 +58,7 @@ class Shortened {
  public:
   Shortened(const part::Part& part, double diameter) {
     std::vector<Place> places{place_of(part.start.table), place_of(part.finish.table)};
-    for (const auto& placed : part.holes) places.push_back(place_of(placed.hole));
+    for (const auto& one : openings(part)) places.push_back(place_of(one.rows));
     std::ranges::sort(places, {}, &Place::z_from);
     double end = places.front().z_to;
     for (const auto& place : places) {
@@ -93,6 +93,7 @@ class View {
   View(Canvas& canvas, const part::PartSpec& spec, const part::Part& part, const Cell& room)
       : canvas_(canvas),
         part_(part),
+        openings_(openings(part)),
         welded_(spec.start.welded),
         outer_(spec.target.outer_radius),
         inner_(spec.target.inner_radius()),
@@ -112,7 +113,7 @@ class View {
     outside();
     edges();
     datum();
-    for (std::size_t i = 0; i < part_.holes.size(); ++i) hole(i);
+    for (const auto& one : openings_) opening(one.rows);
     breaks();
     words();
   }
@@ -140,9 +141,8 @@ class View {
   /// cut.
   [[nodiscard]] double focus() const {
     const bevel::Hole* widest = nullptr;
-    for (const auto& placed : part_.holes)
-      if (widest == nullptr || placed.hole.length_total > widest->length_total)
-        widest = &placed.hole;
+    for (const auto& one : openings_)
+      if (widest == nullptr || one.rows.length_total > widest->length_total) widest = &one.rows;
     if (widest == nullptr) return part_.start.shortest.phi;
     const auto place = place_of(*widest);
     return 0.5 * (place.phi_from + place.phi_to);
@@ -244,8 +244,7 @@ class View {
     }
     return out;
   }
-  void hole(std::size_t i) {
-    const auto& hole = part_.holes[i].hole;
+  void opening(const bevel::Hole& hole) {
     const auto place = place_of(hole);
     if (faces(0.5 * (place.phi_from + place.phi_to)) < 0.1) return;
     const auto border = ring(outer_, hole.phi, hole.z);
@@ -285,16 +284,22 @@ class View {
   }
   /// Tags in a row above, each with a line to its hole; those behind the tube in brackets.
   void words() {
+    std::vector<const Opening*> tagged;
     std::vector<double> wanted;
-    for (const auto& placed : part_.holes) wanted.push_back(middle(placed.hole).x);
+    for (const auto& one : openings_) {
+      if (!one.tagged) continue;
+      tagged.push_back(&one);
+      wanted.push_back(middle(one.rows).x);
+    }
     const auto places = spread(wanted, 7.0, left_, right_);
-    for (std::size_t i = 0; i < part_.holes.size(); ++i) {
-      const auto centre = middle(part_.holes[i].hole);
-      const auto place = place_of(part_.holes[i].hole);
+    for (std::size_t i = 0; i < tagged.size(); ++i) {
+      const auto& [rows, tag, shown] = *tagged[i];
+      const auto centre = middle(rows);
+      const auto place = place_of(rows);
       const bool seen = faces(0.5 * (place.phi_from + place.phi_to)) >= 0.1;
       canvas_.line({places[i], high_ + 2.2}, seen ? centre : DrawingPoint{centre.x, high_},
                    {.color = "#566370", .width = 0.15});
-      canvas_.text({places[i], high_ + 2.8}, seen ? hole_tag(i) : "(" + hole_tag(i) + ")",
+      canvas_.text({places[i], high_ + 2.8}, seen ? tag : "(" + tag + ")",
                    {.height = 2.6, .anchor = Anchor::middle, .bold = true});
     }
     auto right = kWord;
@@ -309,6 +314,7 @@ class View {
 
   Canvas& canvas_;
   const part::Part& part_;
+  std::vector<Opening> openings_;
   bool welded_;
   double outer_, inner_;
   Shortened shortened_;

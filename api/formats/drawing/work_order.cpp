@@ -148,13 +148,15 @@ void draw_view(OrderSheets& sheets, const part::PartSpec& spec, const part::Part
               "phi counts from the datum line, clockwise as seen from the start", kGrey);
 }
 
-/// Returns the height below the view on sheet 1, if there is one strip.
-double height_below(const DevelopmentPlan& plan, const part::Part& part) {
+/// Of sheet 1 below the view, where there is one strip.
+double height_below(const DevelopmentPlan& plan, const part::PartSpec& spec,
+                    const part::Part& part) {
   const auto count = [](std::size_t n) { return static_cast<double>(n); };
   const std::size_t partners = part.start.spec.partners.size() + part.finish.spec.partners.size();
   return plan.height() + 6.0 + 4.0 * std::ceil(count(partners) / 4.0) +
-         (part.holes.empty() ? 0.0 : 10.0 + 6.4 * count(part.holes.size())) + 12.0 +
-         4.4 * std::ceil(count(part.sequence.size()) / 2.0);
+         (part.holes.empty() ? 0.0 : 10.0 + 6.4 * count(part.holes.size())) +
+         (part.cutouts.empty() ? 0.0 : 10.0 + 6.4 * count(spec.cutouts.all.size())) + 12.0 +
+         4.4 * std::ceil(count(step_texts(spec, part).size()) / 2.0);
 }
 
 /// Draws the legend of the two cuts' colours, two lines of a sheet.
@@ -243,13 +245,14 @@ std::vector<Canvas> work_order(const part::PartSpec& spec, const part::Part& par
   draw_verdict(sheets, spec, part, caption);
   rule(sheets);
   const auto plan = plan_development(spec, part, kWide);
-  draw_view(sheets, spec, part, height_below(plan, part));
+  draw_view(sheets, spec, part, height_below(plan, spec, part));
   for (std::size_t i = 0; i < plan.strips.size(); ++i) {
     const double top = sheets.take(plan.height());
     draw_strip(sheets.canvas(), plan, i, spec, part, {kLeft, top});
   }
   draw_partners(sheets, spec, part, caption);
   draw_holes(sheets, spec, part);
+  draw_cutouts(sheets, spec, part);
   draw_steps(sheets, spec, part);
   draw_notches(sheets, spec, part, caption);
   draw_checks(sheets, part);

@@ -5,12 +5,14 @@
 
 #include "api/catalog/post.hpp"
 #include "api/formats/drawing/development.hpp"
+#include "api/formats/drawing/part_edges.hpp"
 #include "api/formats/drawing/part_marks.hpp"
 #include "api/formats/mesh/cut_solid.hpp"
 #include "api/formats/numbers.hpp"
 #include "api/formats/text.hpp"
 #include "api/stop.hpp"
 #include "api/verdict.hpp"
+#include "api/wire/cutout_names.hpp"
 #include "api/wire/words.hpp"
 
 namespace tubecut::api {
@@ -203,6 +205,23 @@ std::string opening(const CutOutline& hole, double bevel_deg, const std::stop_to
   return out;
 }
 
+/// A circle that goes straight through as a bore where a drill makes it; else its outer edge.
+std::string cutout_block(const part::PartSpec& spec, const part::Part& part, std::size_t index,
+                         const CutOutline& cut, const std::stop_token& stop) {
+  constexpr double kLargestBore = 200.0;  // mm
+  const auto& one = part.cutouts.instances[index];
+  const auto& mould = part.cutouts.mould_of(one);
+  const auto& asked = spec.cutouts.all[one.asked];
+  const auto* circle = std::get_if<cutout::Circle>(&asked.shape);
+  auto out =
+      comment("cutout " + dstv_text(cut.label) + " " + std::string(name_of(mould.laying.lay())));
+  if (circle == nullptr || asked.wall == cutout::Wall::developed || circle->diameter > kLargestBore)
+    return out + opening(cut, 0.0, stop);
+  const double middle = turned_from(0.0, one.phi + mould.laying.phase(0.0));
+  return out + "BO\r\n  v" + field(one.z) + "u" + field(up(spec.target.outer_radius, middle)) +
+         field(circle->diameter) + field(0.0) + "\r\n";
+}
+
 }  // namespace
 
 std::string print_dstv(const bevel::TableSpec& spec, const bevel::Table& t,
@@ -231,6 +250,9 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
       append(openings, opening(cut, bevel.value_or(0.0), caption.stop), caption.stop);
       tables += comment(cut.name + " is " + dstv_text(cut.label)) + comment("cut " + cut.name);
       append(tables, sidecar(spec.target, hole, caption.stop), caption.stop);
+    } else if (step.what == part::Step::What::cutout) {
+      const auto& cut = cuts[2 + part.holes.size() + step.index];
+      append(openings, cutout_block(spec, part, step.index, cut, caption.stop), caption.stop);
     } else if (step.what == part::Step::What::mark) {
       marks += comment(dstv_text(mark_by_hand(part.marks[step.index], Post{})));
     } else {
@@ -240,10 +262,14 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
       append(tables, sidecar(spec.target, table, 0.0, caption.stop), caption.stop);
     }
   }
-  auto out = "ST\r\n" + comments(lengths, constant, caption) +
-             comment("AK: the tube itself, kept within; IK: an opening of it, kept outside") +
-             comment("a hole across phi = 0 is one contour: its y leaves the girth") + marks +
-             header(spec.target, spec.density, lengths, caption, spec.name);
+  auto out =
+      "ST\r\n" + comments(lengths, constant, caption) +
+      comment("AK: the tube itself, kept within; IK: an opening of it, kept outside") +
+      (part.cutouts.empty()
+           ? ""
+           : comment("BO: a bore along the tube's radius, its diameter, depth 0 = this wall")) +
+      comment("a hole across phi = 0 is one contour: its y leaves the girth") + marks +
+      header(spec.target, spec.density, lengths, caption, spec.name);
   append(out, outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0), caption.stop),
          caption.stop);
   append(out, openings, caption.stop);

@@ -179,7 +179,8 @@ double way_between(const TorchJob& job, const TorchPlace& from, const TorchPlace
 
 std::string gcode_job(const Caption& caption) {
   const auto& post = post_of(caption.options);
-  auto out = post.comment(engine() + ", numerics " + std::to_string(numerics()) + ", post " + post.name);
+  auto out =
+      post.comment(engine() + ", numerics " + std::to_string(numerics()) + ", post " + post.name);
   for (const auto& [name, text] : caption.reference)
     out += post.comment(called(name, Term::field) + ": " + text);
   for (const auto& line : verdict_lines(caption.verdict, {.plain = true}))

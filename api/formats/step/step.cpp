@@ -1,14 +1,17 @@
 #include "api/formats/step/step.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "api/formats/bevel_table_formats.hpp"
+#include "api/formats/drawing/part_edges.hpp"
 #include "api/formats/mesh/cut_solid.hpp"
 #include "api/formats/mesh/tube_solid.hpp"
 #include "api/formats/step/step_solid.hpp"
 #include "api/formats/text.hpp"
 #include "api/stop.hpp"
+#include "core/cutout/rows.hpp"
 #include "core/part/edge.hpp"
 #include "core/part/hole_volume.hpp"
 
@@ -45,6 +48,30 @@ TubeCut hole_cut(const joint::Target& tube, const bevel::Hole& hole, std::string
                                       {tube.outer_radius, hole.phi, hole.z}},
                             .turn = 0.0};
   return {TubeCut::Place::hole, std::move(name), curve_of(wall, {}, caption)};
+}
+
+/// A cut-out's mould by close rows, with a corner at every end of its segments.
+WallCurve cutout_curve(const joint::Target& tube, const cutout::Mould& mould, double turn, double z,
+                       const Caption& caption) {
+  ask(caption.stop);
+  constexpr double kClose = 1e-3, kAtCorner = 1e-9;  // mm
+  auto rows = cutout::rows(mould.laying, mould.chain, {.tolerance = kClose}).value();
+  std::vector<bool> corners;
+  for (std::size_t i = 0; i < rows.phi.size(); ++i)
+    corners.push_back(
+        mould.chain.size() > 1 && std::ranges::any_of(mould.chain, [&](const cutout::Segment& s) {
+          const double phi = mould.laying.phase(mould.laying.turn(s.from.y(), tube.outer_radius));
+          return std::abs(s.from.x() - rows.z[i]) < kAtCorner &&
+                 std::abs(phi - rows.phi[i]) * tube.outer_radius < kAtCorner;
+        }));
+  for (auto* column : {&rows.phi, &rows.phi_inner})
+    for (double& phi : *column) phi += turn;
+  for (auto* column : {&rows.z, &rows.z_inner})
+    for (double& at : *column) at += z;
+  return curve_of({.edges = {{tube.inner_radius(), rows.phi_inner, rows.z_inner},
+                             {tube.outer_radius, rows.phi, rows.z}},
+                   .turn = 0.0},
+                  std::move(corners), caption);
 }
 
 std::string print(const joint::Target& tube, const std::vector<TubeCut>& cuts,
@@ -141,6 +168,12 @@ TubeSolid part_solid(const part::PartSpec& spec, const part::Part& part, const C
       if (some_meet && part::holes_meet(tube, *other, hole, caption.stop)) refuse("two holes meet");
     kept.push_back(&hole);
     cuts.push_back(hole_cut(tube, hole, "hole " + std::to_string(i), caption));
+  }
+  const auto& layout = part.cutouts;
+  for (std::size_t i = 0; i < layout.instances.size(); ++i) {
+    const auto& one = layout.instances[i];
+    cuts.push_back({TubeCut::Place::hole, "cut-out " + cutout_tag(layout, i),
+                    cutout_curve(tube, layout.mould_of(one), one.phi, one.z, caption)});
   }
   return tube_solid(tube.inner_radius(), tube.outer_radius, cuts, caption.stop);
 }

@@ -33,16 +33,16 @@ export async function part(_: Row, answer: Answer, context: Context): Promise<Pi
     solid: solidOf(request, result, {outer, wall}, context.sizes),
     charts: [...charts, ...holes.flatMap((hole, i) => holeCharts(hole, i, holes.length, outer / 2))],
     figures: [...webFigures(result), ...figures(result['lengths'] as Row, Object.keys(result['lengths'] as Row))],
-    said: said(result, holes.length),
+    said: said(result, holes.length, rowsOf(result['cutouts']).reduce((sum, group) => sum + rowsOf(group['instances']).length, 0)),
     tables: ['check_dimensions', 'sequence'].filter((key) => rowsOf(result[key]).length).map((key) => table(key, rowsOf(result[key]))),
   };
 }
 
 /** "Cut to 812.4 mm, with two holes. Start: B from ..." */
-function said(result: Row, holes: number): string {
+function said(result: Row, holes: number, openings: number): string {
   const lengths = result['lengths'] as Row;
   const ends = Object.entries(result['ends'] as Row).map(([side, end]) => `${sentence(side)}: ${rangeOf(endCurve(end as Row).b ?? [])}.`);
-  return `${withUnit(Number(lengths['long_mm']), 'mm')} from tip to tip${holes ? `, ${plural(holes, 'hole')}` : ''}. ${ends.join(' ')}`;
+  return `${withUnit(Number(lengths['long_mm']), 'mm')} from tip to tip${holes ? `, ${plural(holes, 'hole')}` : ''}${openings ? `, ${plural(openings, 'cut-out')}` : ''}. ${ends.join(' ')}`;
 }
 
 function endCurve(end: Row): EndCurve {
@@ -58,11 +58,31 @@ const endsOf = (result: Row): [EndCurve, EndCurve] => {
 /** From where to where it goes along its axis. */
 export const reach = (from: EndCurve, to: EndCurve) => bounds([...from.zInner, ...from.zOuter, ...to.zInner, ...to.zOuter]);
 
+/** Cut-outs that a mesh has as holes; of more, only the edges are drawn. */
+const mostOpen = 200;
+
+/** Every cut-out of the answer: the first of each group, and the others moved from it. */
+function cutouts(result: Row): HoledTube['holes'] {
+  return rowsOf(result['cutouts']).flatMap((group) => {
+    const first = opening(group['points'] as Row);
+    const instances = rowsOf(group['instances']);
+    const [phi, z] = ['phi_deg', 'z_mm'].map((key) => Number((instances[0] as Row)[key])) as [number, number];
+    return instances.map((each) => {
+      const moved = (edge: {phi: number[]; z: number[]}) => ({
+        phi: edge.phi.map((at) => at + Number(each['phi_deg']) - phi),
+        z: edge.z.map((at) => at + Number(each['z_mm']) - z),
+      });
+      return {...first, outer: moved(first.outer), inner: moved(first.inner)};
+    });
+  });
+}
+const open = (all: HoledTube['holes']) => (all.length > mostOpen ? [] : all);
+
 /** The finished part in its own frame. */
 export function finished(result: Row, {outer, wall}: {outer: number; wall: number}): HoledTube {
   const [from, to] = endsOf(result);
   const holes = rowsOf(result['holes']).map((hole) => opening(hole['points'] as Row));
-  return {outer: outer / 2, inner: outer / 2 - wall, from, to, holes};
+  return {outer: outer / 2, inner: outer / 2 - wall, from, to, holes: [...holes, ...open(cutouts(result))]};
 }
 
 /** The member on its side, the datum line up, its start to the left. */
@@ -71,17 +91,29 @@ function solidOf(request: Row, result: Row, {outer, wall}: {outer: number; wall:
   const [low, high] = reach(from, to);
   const openings = rowsOf(result['holes']).map((hole) => ({...opening(hole['points'] as Row), fit: hole['fit_up'] as Row}));
   const cuts = laser(request, [from, to], openings);
-  const holes = openings.map((hole, i) => ({...hole, gaps: cuts?.holes[i]}));
+  const own = cutouts(result);
+  const flat = ({phi}: {phi: number[]}) => ({inner: phi.map(() => 0), outer: phi.map(() => 0), most: cuts?.most ?? 0});
+  const holes = [
+    ...openings.map((hole, i) => ({...hole, gaps: cuts?.holes[i]})),
+    ...open(own).map((each) => ({...each, gaps: cuts ? flat(each.outer) : undefined})),
+  ];
+  const edges = own.length > mostOpen ? own : [];
   const datum = rowsOf(result['marks']).filter((mark) => mark['kind'] === 'datum_line');
   return {
     link: 'part',
     tubes: [],
     holed: [{outer: outer / 2, inner: outer / 2 - wall, from: {...from, gaps: cuts?.ends[0]}, to: {...to, gaps: cuts?.ends[1]}, holes}],
     ...(cuts ? {scale: gapScale(cuts.most)} : tinted([from, to, ...openings].flatMap(({b}) => b ?? []))),
-    lines: datum.map((mark) => ({
-      points: [mark['z_from_mm'], mark['z_to_mm']].map((z) => onTube(1.002 * (outer / 2), Number(mark['phi_deg']), Number(z))),
-      tone: 'mark',
-    })),
+    lines: [
+      ...datum.map((mark) => ({
+        points: [mark['z_from_mm'], mark['z_to_mm']].map((z) => onTube(1.002 * (outer / 2), Number(mark['phi_deg']), Number(z))),
+        tone: 'mark' as const,
+      })),
+      ...edges.map(({outer: edge}) => ({
+        points: [...edge.phi, edge.phi[0] as number].map((phi, i) => onTube(1.002 * (outer / 2), phi, edge.z[i % edge.z.length] as number)),
+        tone: 'mark' as const,
+      })),
+    ],
     partners: partners(request, result, outer, sizes),
     centre: [0, 0, (low + high) / 2],
     size: Math.max(1.35 * outer, 0.86 * (high - low + outer)),

@@ -1,0 +1,171 @@
+#include "core/cutout/cutout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
+#include "core/cutout/rows.hpp"
+#include "core/cutout/sizes.hpp"
+#include "core/math/rotation.hpp"
+
+namespace tubecut::cutout {
+namespace {
+
+struct Chains {
+  Result<Chain> operator()(const Circle& c) const { return circle(c.diameter); }
+  Result<Chain> operator()(const Slot& s) const { return slot(s.length, s.width); }
+  Result<Chain> operator()(const Rectangle& r) const {
+    return rectangle(r.along, r.round, r.radius);
+  }
+  Result<Chain> operator()(const Contour& c) const {
+    return under("shape", drawn(c.start, c.pieces, c.mirrored));
+  }
+};
+
+struct LeastSize {
+  std::optional<double> operator()(const Circle& c) const { return c.diameter; }
+  std::optional<double> operator()(const Slot& s) const { return s.width; }
+  std::optional<double> operator()(const Rectangle& r) const { return std::min(r.along, r.round); }
+  std::optional<double> operator()(const Contour&) const { return {}; }
+};
+
+double height(const Anchor& at, const Ground& ground) {
+  const bool tip = at.zero == Anchor::Zero::long_point;
+  if (at.from == Anchor::From::finish)
+    return (tip ? ground.finish_long : ground.finish_work) - at.z;
+  return (tip ? ground.start_long : ground.start_work) + at.z;
+}
+
+/// A prism's wall leans across; the torch's range says how far it may.
+Result<void> check_lean(const bevel::Hole& rows, const Ground& ground) {
+  double most = 0.0;
+  for (const double a : rows.a) most = std::max(most, std::abs(a));
+  if (most <= ground.most_lean) return {};
+  return fail({.code = ErrorCode::torch_range,
+               .member = "tilt",
+               .got = most * kDegPerRad,
+               .limit = ground.most_lean * kDegPerRad,
+               .unit = "deg",
+               .hint = "the torch would lean so far across; tilt none cuts the wall square"});
+}
+
+bool alike(const Segment& a, const Segment& b) {
+  return a.from == b.from && a.to == b.to && a.centre == b.centre && a.sweep == b.sweep;
+}
+
+/// Finds the mould of one side, or makes it.
+Result<std::size_t> mould_of(const Spec& spec, const Chain& chain, const Laying& laying,
+                             const Ground& ground, std::vector<Mould>& all) {
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].laying.lay() == laying.lay() && all[i].laying.far() == laying.far() &&
+        all[i].as_cut == spec.as_cut && std::ranges::equal(all[i].chain, chain, alike))
+      return i;
+  const Cutting cutting{.kerf = ground.kerf, .tolerance = ground.tolerance, .as_cut = spec.as_cut};
+  TRY(auto made, under("shape", rows(laying, chain, cutting)));
+  TRY(check_lean(made, ground));
+  all.push_back({.laying = laying,
+                 .chain = chain,
+                 .as_cut = spec.as_cut,
+                 .rows = std::move(made),
+                 .taken = taken(laying, chain),
+                 .centre = deep_in(spec, chain)});
+  return all.size() - 1;
+}
+
+/// The moulds of a spec, near side first.
+Result<std::vector<std::size_t>> moulds_of(const Spec& spec, const Ground& ground,
+                                           std::vector<Mould>& all) {
+  const Laying near(ground.tube, lay_of(spec.wall, spec.tilt), false);
+  if (auto issues = check_sizes(spec, near, ground.kerf); !issues.empty())
+    return tl::unexpected(Error{std::move(issues)});
+  TRY(const auto chain, chain_of(spec));
+  if (auto issues = check_open(chain, near); !issues.empty())
+    return tl::unexpected(Error{std::move(issues)});
+  std::vector<std::size_t> out;
+  for (const bool far : {false, true}) {
+    if (far && spec.wall != Wall::through) continue;
+    TRY(const auto found, mould_of(spec, chain, Laying(ground.tube, near.lay(), far), ground, all));
+    out.push_back(found);
+  }
+  return out;
+}
+
+Issue too_many(std::size_t asked, std::size_t count) {
+  return {.code = ErrorCode::out_of_range,
+          .member = path_of(asked) + "/pattern",
+          .got = static_cast<double>(count),
+          .limit = static_cast<double>(kMostCutouts),
+          .hint = "a part has no more cut-outs"};
+}
+
+}  // namespace
+
+std::string path_of(std::size_t asked) { return "cutouts/" + std::to_string(asked); }
+
+Lay lay_of(Wall wall, bevel::Tilt tilt) {
+  if (wall == Wall::developed) return Lay::developed;
+  return tilt == bevel::Tilt::free ? Lay::prism : Lay::bored;
+}
+
+Result<Chain> chain_of(const Spec& spec) {
+  TRY(auto chain, std::visit(Chains{}, spec.shape));
+  return turned(std::move(chain), spec.turn);
+}
+
+std::optional<double> least_size(const Shape& shape) { return std::visit(LeastSize{}, shape); }
+
+Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground) {
+  Layout out;
+  std::vector<Issue> issues;
+  std::size_t count = 0, total = 0;
+  const auto refuse = [&](std::size_t asked, Error error) {
+    for (auto& issue : under(path_of(asked), std::move(error)).issues)
+      issues.push_back(std::move(issue));
+  };
+  for (std::size_t k = 0; k < specs.size(); ++k) {
+    const auto& spec = specs[k];
+    const auto many = count_of(spec.pattern);
+    if (count + many > kMostCutouts) {
+      issues.push_back(too_many(k, count + many));
+      continue;
+    }
+    count += many;
+    auto moulds = moulds_of(spec, ground, out.moulds);
+    auto all = steps(spec.pattern);
+    if (!moulds) refuse(k, std::move(moulds).error());
+    if (!all) refuse(k, std::move(all).error());
+    if (!moulds || !all) continue;
+    const double z = height(spec.at, ground), phi = spec.at.phi + (spec.at.opposite ? kPi : 0.0);
+    for (const auto& step : *all)
+      for (const auto mould : *moulds) {
+        out.instances.push_back({.asked = k,
+                                 .name = spec.id + step.suffix,
+                                 .mould = mould,
+                                 .phi = math::whole_turn(phi + step.turn),
+                                 .z = z + step.along});
+        total += out.moulds[mould].rows.phi.size();
+      }
+    if (total > kMostRows) {
+      refuse(k, {{.code = ErrorCode::out_of_range,
+                  .got = static_cast<double>(total),
+                  .limit = static_cast<double>(kMostRows),
+                  .hint = "the cut-outs have too many points; use a coarser sampling"}});
+      break;
+    }
+  }
+  if (!issues.empty()) return tl::unexpected(Error{std::move(issues)});
+  return out;
+}
+
+bevel::Hole placed(const Layout& layout, const Instance& one) {
+  auto out = layout.mould_of(one).rows;
+  for (auto* column : {&out.phi, &out.phi_inner, &out.torch_phi, &out.torch_phi_inner})
+    for (double& phi : *column) phi += one.phi;
+  for (auto* column : {&out.z, &out.z_inner, &out.torch_z, &out.torch_z_inner})
+    for (double& z : *column) z += one.z;
+  return out;
+}
+
+}  // namespace tubecut::cutout

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/variant.hpp"
+#include "core/bevel/hole/hole.hpp"
+#include "core/cutout/laying.hpp"
+#include "core/cutout/pattern.hpp"
+
+namespace tubecut::cutout {
+
+struct Circle {
+  double diameter = 0.0;
+};
+struct Slot {
+  double length = 0.0, width = 0.0;  // over all
+};
+struct Rectangle {
+  double along = 0.0, round = 0.0, radius = 0.0;
+};
+struct Contour {
+  Flat start = Flat::Zero();
+  std::vector<Piece> pieces;
+  bool mirrored = false;
+};
+using Shape = Variant<Circle, Slot, Rectangle, Contour>;
+
+enum class Wall {
+  normal,     // straight along the anchor's normal, through the near wall
+  through,    // the same, through both
+  developed,  // laid on the outside
+};
+
+/// Where a cut-out's local plane touches the part.
+struct Anchor {
+  enum class From { start, finish };
+  enum class Zero { work_point, long_point };
+  double z = 0.0;  // mm, into the part
+  From from = From::start;
+  Zero zero = Zero::work_point;
+  double phi = 0.0;  // rad, in the part's frame
+  bool opposite = false;
+};
+
+struct Spec {
+  std::string id;
+  Shape shape;
+  double turn = 0.0;    // rad, about the anchor, from +z towards growing phi
+  bool as_cut = false;  // hollow corners tighter than the kerf stay as the beam leaves them
+  Anchor at;
+  Wall wall = Wall::normal;
+  bevel::Tilt tilt = bevel::Tilt::axial;
+  Pattern pattern;
+};
+
+/// The tube that is cut, and the heights that anchors count from.
+struct Ground {
+  joint::Target tube;
+  double start_long = 0.0, start_work = 0.0;
+  double finish_long = 0.0, finish_work = 0.0;
+  double kerf = 0.0;
+  double tolerance = 0.01;       // see Cutting
+  double most_lean = 0.5 * kPi;  // rad, of the torch across
+};
+
+inline constexpr std::size_t kMostCutouts = 2'000;
+inline constexpr std::size_t kMostRows = 200'000;
+
+/// One shape on one side of the wall, about its anchor: cut-outs that are alike share it.
+struct Mould {
+  Laying laying;
+  Chain chain;
+  bool as_cut = false;
+  bevel::Hole rows;  // phases and heights from the anchor
+  Taken taken;
+  Flat centre = Flat::Zero();  // deep in the scrap
+};
+
+/// One cut-out of one wall, in the part's frame.
+struct Instance {
+  std::size_t asked = 0;  // index of the spec
+  std::string name;       // "id", in a pattern "id.3" or "id.3.1"
+  std::size_t mould = 0;
+  double phi = 0.0, z = 0.0;  // of the anchor, on the near side
+};
+
+struct Layout {
+  std::vector<Mould> moulds;
+  std::vector<Instance> instances;
+
+  [[nodiscard]] const Mould& mould_of(const Instance& one) const { return moulds[one.mould]; }
+  [[nodiscard]] bool empty() const { return instances.empty(); }
+};
+
+/// Lays every cut-out on its wall.
+///
+/// Errors  at cutouts/k: out_of_range, contour_open, contour_crosses, open_profile (shape),
+///         pattern_wraps, out_of_range (pattern), torch_range (tilt). All of them at once.
+/// Source  docs/theory/cutouts.md.
+[[nodiscard]] Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground);
+
+/// An instance's rows in the part's frame.
+[[nodiscard]] bevel::Hole placed(const Layout& layout, const Instance& one);
+
+/// Every mould proved by its own points in space: the edges against the chain, the torch's line
+/// against the wall, the volume ring by ring.
+[[nodiscard]] std::vector<Check> verify(const Layout& layout, const Ground& ground);
+
+/// What a mould takes of the wall, mm^3: ring by ring, each by Gauss along the segments.
+[[nodiscard]] double volume_by_rings(const Mould& mould);
+
+/// "cutouts/3": where errors about a spec point.
+[[nodiscard]] std::string path_of(std::size_t asked);
+
+/// How the chain of a spec lies: its tilt decides whether a straight wall is a prism.
+[[nodiscard]] Lay lay_of(Wall wall, bevel::Tilt tilt);
+
+/// The shape turned in its local plane.
+///
+/// Errors  those of drawn.
+[[nodiscard]] Result<Chain> chain_of(const Spec& spec);
+
+/// The diameter, a slot's width or a rectangle's shorter side, mm; nothing of a contour.
+[[nodiscard]] std::optional<double> least_size(const Shape& shape);
+
+}  // namespace tubecut::cutout

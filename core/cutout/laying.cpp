@@ -1,0 +1,110 @@
+#include "core/cutout/laying.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/base/angle.hpp"
+#include "core/base/elementary.hpp"
+#include "core/math/quadrature.hpp"
+
+namespace tubecut::cutout {
+namespace {
+
+constexpr int kGaussPoints = 12;
+constexpr double kPlacesATurn = 40.0;
+constexpr double kFlat = 1e-3;  // of the radius: a step of b below which Gauss serves for a line
+
+/// T(b) of one quantity and, for lines, its integral P(b).
+struct Integrand {
+  std::function<double(double)> t, p;
+};
+
+double root(double rho, double b) { return std::sqrt(std::max(0.0, rho * rho - b * b)); }
+
+/// Way round on the radius rho from a prism's middle to b.
+Integrand way(double rho) {
+  return {[rho](double b) { return rho * elementary::asin(b / rho); },
+          [rho](double b) { return rho * (b * elementary::asin(b / rho) + root(rho, b)); }};
+}
+
+/// Area under the circle of radius rho from a prism's middle to b.
+Integrand under(double rho) {
+  return {
+      [rho](double b) { return 0.5 * (b * root(rho, b) + rho * rho * elementary::asin(b / rho)); },
+      [rho](double b) {
+        const double q = root(rho, b);
+        return 0.5 * (rho * rho * (b * elementary::asin(b / rho) + q) - q * q * q / 3.0);
+      }};
+}
+
+double by_gauss(const Segment& s, const Integrand& of, int places) {
+  static const auto kRule = math::gauss_legendre(kGaussPoints);
+  double sum = 0.0;
+  for (int i = 0; i < places; ++i)
+    for (std::size_t k = 0; k < kRule.nodes.size(); ++k) {
+      const double share = (i + 0.5 * (1.0 + kRule.nodes[k])) / places;
+      const double da = s.along(share).x() * s.length() * 0.5 * kRule.weights[k] / places;
+      sum += of.t(s.at(share).y()) * da;
+    }
+  return sum;
+}
+
+/// Of T(b) da around the chain, without its sign: that of an enclosed quantity.
+double around(const Chain& chain, const Integrand& of, double rho) {
+  double sum = 0.0;
+  for (const auto& s : chain) {
+    const double rise = s.to.y() - s.from.y();
+    if (s.arc())
+      sum += by_gauss(
+          s, of,
+          std::max(1, static_cast<int>(std::ceil(kPlacesATurn * std::abs(s.sweep) / kTwoPi))));
+    else if (std::abs(rise) < kFlat * rho)
+      sum += by_gauss(s, of, 1);
+    else
+      sum += (s.to.x() - s.from.x()) * (of.p(s.to.y()) - of.p(s.from.y())) / rise;
+  }
+  return std::abs(sum);
+}
+
+}  // namespace
+
+double Laying::turn(double b, double rho) const {
+  if (lay_ == Lay::developed) return b / outer_;
+  return elementary::asin(std::clamp(b / (lay_ == Lay::prism ? rho : inner_), -1.0, 1.0));
+}
+
+double Laying::stretch(double b) const {
+  return lay_ == Lay::bored ? outer_ / root(inner_, b) : 1.0;
+}
+
+Taken taken(const Laying& laying, const Chain& chain) {
+  const double outer = laying.outer(), inner = laying.inner(), wall = outer - inner;
+  const double square = wall * (1.0 - 0.5 * wall / outer);  // volume of a square wall, per area
+  if (laying.lay() == Lay::developed) {
+    const double flat = area(chain);
+    return {flat, flat * inner / outer, flat * square};
+  }
+  const double bore = around(chain, way(inner), inner);
+  if (laying.lay() == Lay::bored) {
+    const double outside = bore * outer / inner;
+    return {outside, bore, outside * square};
+  }
+  return {around(chain, way(outer), outer), bore,
+          around(chain, under(outer), outer) - around(chain, under(inner), inner)};
+}
+
+double removed(const Laying& laying, const Chain& chain, double at) {
+  const double outer = laying.outer(), inner = laying.inner();
+  double sum = 0.0;
+  for (const auto& [from, to] : stretches(chain, at)) {
+    if (laying.lay() == Lay::prism)
+      sum += under(outer).t(to) - under(outer).t(from) - under(inner).t(to) + under(inner).t(from);
+    else
+      sum += (laying.turn(to, outer) - laying.turn(from, outer)) * 0.5 *
+             (outer * outer - inner * inner);
+  }
+  return sum;
+}
+
+}  // namespace tubecut::cutout

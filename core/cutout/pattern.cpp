@@ -1,0 +1,73 @@
+#include "core/cutout/pattern.hpp"
+
+#include <cmath>
+
+#include "core/base/angle.hpp"
+
+namespace tubecut::cutout {
+namespace {
+
+constexpr double kFullTurn = 1e-12;  // rad
+
+/// Equal steps round the tube must not reach the first again.
+Result<void> check_turn(int count, double turn, const std::string& member) {
+  const double way = (count - 1) * std::abs(turn);
+  if (way < kTwoPi - kFullTurn) return {};
+  return fail({.code = ErrorCode::pattern_wraps,
+               .member = member,
+               .got = static_cast<double>(count),
+               .limit = std::ceil(kTwoPi / std::abs(turn) - kFullTurn),
+               .hint = "with this pitch more lie on each other"});
+}
+
+struct Steps {
+  Result<std::vector<Step>> operator()(const Once&) const { return std::vector<Step>{{}}; }
+  Result<std::vector<Step>> operator()(const Linear& p) const {
+    if (auto fits = check_turn(p.count, p.turn, "pattern/count"); !fits)
+      return tl::unexpected(fits.error());
+    std::vector<Step> out;
+    for (int i = 0; i < p.count; ++i)
+      out.push_back({"." + std::to_string(i), i * p.pitch, i * p.turn});
+    return out;
+  }
+  Result<std::vector<Step>> operator()(const Round& p) const {
+    return (*this)(Linear{.count = p.count, .turn = p.turn});
+  }
+  Result<std::vector<Step>> operator()(const Grid& p) const {
+    if (auto fits = check_turn(p.round, p.turn, "pattern/round/count"); !fits)
+      return tl::unexpected(fits.error());
+    const bool closed = std::abs(p.round * std::abs(p.turn) - kTwoPi) < 1e-9;
+    if (closed && p.stagger == Grid::Stagger::along && p.round % 2 != 0)
+      return fail({.code = ErrorCode::pattern_wraps,
+                   .member = "pattern/round/count",
+                   .got = static_cast<double>(p.round),
+                   .limit = static_cast<double>(p.round - 1),
+                   .hint = "all round, staggered rows are even in number"});
+    std::vector<Step> out;
+    for (int j = 0; j < p.round; ++j)
+      for (int i = 0; i < p.along; ++i) {
+        const double along = p.stagger == Grid::Stagger::along && j % 2 != 0 ? p.offset : 0.0;
+        const double round = p.stagger == Grid::Stagger::round && i % 2 != 0 ? p.offset : 0.0;
+        out.push_back({"." + std::to_string(i) + "." + std::to_string(j), i * p.pitch + along,
+                       j * p.turn + round});
+      }
+    return out;
+  }
+};
+
+struct Count {
+  std::size_t operator()(const Once&) const { return 1; }
+  std::size_t operator()(const Linear& p) const { return static_cast<std::size_t>(p.count); }
+  std::size_t operator()(const Round& p) const { return static_cast<std::size_t>(p.count); }
+  std::size_t operator()(const Grid& p) const {
+    return static_cast<std::size_t>(p.along) * static_cast<std::size_t>(p.round);
+  }
+};
+
+}  // namespace
+
+std::size_t count_of(const Pattern& pattern) { return std::visit(Count{}, pattern); }
+
+Result<std::vector<Step>> steps(const Pattern& pattern) { return std::visit(Steps{}, pattern); }
+
+}  // namespace tubecut::cutout

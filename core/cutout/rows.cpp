@@ -1,0 +1,270 @@
+#include "core/cutout/rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
+#include "core/math/polygon.hpp"
+
+namespace tubecut::cutout {
+namespace {
+
+constexpr double kSmooth = 1e-7;  // rad, between two segments that are one line
+constexpr double kBulge = 0.004;  // mm, of a chord of the torch's line into the part
+constexpr int kDeepest = 12;      // halvings of a segment
+constexpr double kEighth = 0.25 * kPi;
+constexpr double kSame = 1e-7;         // mm, between two places of the axis
+constexpr double kLineCrossed = 1e-9;  // of the area within the torch's line
+
+/// One place of the edge and the torch's axis for it, in the plane of the offset.
+struct Row {
+  Flat edge, torch;
+};
+
+/// The rows of a segment.
+struct Run {
+  std::vector<Row> rows;
+  Flat first_normal, last_normal;
+  bool lost = false;  // the beam does not reach into it
+  std::size_t piece = 0;
+};
+
+class Maker {
+ public:
+  Maker(const Laying& laying, const Chain& chain, const Cutting& cutting)
+      : laying_(laying), chain_(chain), cutting_(cutting) {}
+
+  Result<std::vector<Row>> make();
+
+ private:
+  [[nodiscard]] Flat plane(const Flat& p) const {
+    if (laying_.lay() != Lay::bored) return p;
+    return {p.x(), laying_.outer() * laying_.turn(p.y(), laying_.outer())};
+  }
+  /// Towards the part, in the plane of the offset.
+  [[nodiscard]] Flat normal(const Segment& s, double share) const {
+    const auto along = s.along(share);
+    return Flat(along.y() * laying_.stretch(s.at(share).y()), -along.x()).normalized();
+  }
+  [[nodiscard]] Flat on_wall(const Flat& p, double rho) const {
+    return {p.x(), rho * laying_.turn(p.y(), rho)};
+  }
+  void halve(const Segment& s, double from, double to, double within, int depth,
+             std::vector<double>& out) const;
+  [[nodiscard]] std::vector<double> shares(const Segment& s) const;
+  [[nodiscard]] Run run(const Segment& s) const;
+  Result<void> join(Run& before, Run& after) const;
+  void round_corner(Run& before, const Run& after) const;
+
+  const Laying& laying_;
+  const Chain& chain_;
+  const Cutting& cutting_;
+};
+
+void Maker::halve(const Segment& s, double from, double to, double within, int depth,
+                  std::vector<double>& out) const {
+  double off = 0.0;
+  for (const double rho : {laying_.outer(), laying_.inner()}) {
+    const Flat a = on_wall(s.at(from), rho), way = on_wall(s.at(to), rho) - a;
+    const double length = way.norm();
+    for (const double part : {0.25, 0.5, 0.75}) {
+      const Flat p = on_wall(s.at(from + part * (to - from)), rho) - a;
+      if (length > 0.0) off = std::max(off, std::abs(cross(way, p)) / length);
+    }
+  }
+  if (off <= within || depth == kDeepest) return out.push_back(to);
+  const double middle = 0.5 * (from + to);
+  halve(s, from, middle, within, depth + 1, out);
+  halve(s, middle, to, within, depth + 1, out);
+}
+
+std::vector<double> Maker::shares(const Segment& s) const {
+  std::vector<double> out{0.0};
+  const int parts =
+      s.arc() ? std::max(1, static_cast<int>(std::ceil(std::abs(s.sweep) / kEighth - 1e-9))) : 1;
+  const double within =
+      s.arc() && s.hollow() ? cutting_.tolerance : std::min(cutting_.tolerance, kBulge);
+  for (int i = 0; i < parts; ++i)
+    halve(s, static_cast<double>(i) / parts, static_cast<double>(i + 1) / parts, within, 0, out);
+  return out;
+}
+
+Run Maker::run(const Segment& s) const {
+  Run out{
+      .rows = {}, .first_normal = normal(s, 0.0), .last_normal = normal(s, 1.0), .piece = s.piece};
+  for (const double share : shares(s)) {
+    const auto p = s.at(share);
+    out.rows.push_back({p, plane(p) + kerf_offset(laying_, cutting_.kerf, normal(s, share))});
+  }
+  if (!s.arc() || !s.hollow()) return out;
+  double most = 0.0;
+  for (const auto& row : out.rows) most = std::max(most, std::abs(row.edge.y()));
+  out.lost = s.radius < least_radius(laying_, cutting_.kerf, most) * (1.0 - 1e-9);
+  return out;
+}
+
+/// Where the tail of one line first crosses the head of another, by the index of the last place
+/// kept of the one and the first of the other.
+struct Crossing {
+  std::size_t last, first;
+  Flat at;
+};
+std::optional<Crossing> crossing(const std::vector<Row>& one, const std::vector<Row>& other) {
+  for (std::size_t i = one.size(); i-- > 1;)
+    for (std::size_t j = 0; j + 1 < other.size(); ++j) {
+      const Flat a = one[i - 1].torch, b = one[i].torch - a;
+      const Flat c = other[j].torch, d = other[j + 1].torch - c;
+      const double of = cross(b, d);
+      if (of == 0.0) continue;
+      const double u = cross(c - a, d) / of, v = cross(c - a, b) / of;
+      if (u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0) return Crossing{i - 1, j + 1, a + u * b};
+    }
+  return {};
+}
+
+/// The axis goes round a corner of the part that reaches into the scrap.
+void Maker::round_corner(Run& before, const Run& after) const {
+  const auto &from = before.last_normal, &to = after.first_normal;
+  const double angle = elementary::atan2(cross(from, to), from.dot(to));
+  const double step =
+      2.0 * elementary::acos(1.0 - std::min(1.0, kBulge / std::max(kBulge, cutting_.kerf)));
+  const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(angle) / step)));
+  const Flat edge = before.rows.back().edge;
+  for (int i = 1; i < parts; ++i) {
+    const auto [sin, cos] = elementary::sincos(angle * i / parts);
+    const Flat m(cos * from.x() - sin * from.y(), sin * from.x() + cos * from.y());
+    before.rows.push_back({edge, plane(edge) + kerf_offset(laying_, cutting_.kerf, m)});
+  }
+}
+
+/// Two runs that follow each other, without those lost between them.
+Result<void> Maker::join(Run& before, Run& after) const {
+  const double angle = elementary::atan2(cross(before.last_normal, after.first_normal),
+                                         before.last_normal.dot(after.first_normal));
+  if (cutting_.kerf == 0.0 || std::abs(angle) < kSmooth) return {};
+  if (angle < 0.0) {
+    round_corner(before, after);
+    return {};
+  }
+  if (!cutting_.as_cut)
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "pieces/" + std::to_string(before.piece),
+                 .got = 0.0,
+                 .limit = least_radius(laying_, cutting_.kerf, before.rows.back().edge.y()),
+                 .unit = "mm",
+                 .hint = "round the corner at its end by an arc of this radius, or accept what the "
+                         "beam leaves: corners as_cut"});
+  const auto met = crossing(before.rows, after.rows);
+  if (!met)
+    return fail({.code = ErrorCode::out_of_range,
+                 .hint = "beside a corner the contour is narrower than the kerf"});
+  for (std::size_t i = met->last + 1; i < before.rows.size(); ++i) before.rows[i].torch = met->at;
+  for (std::size_t i = 0; i < met->first; ++i) after.rows[i].torch = met->at;
+  return {};
+}
+
+Result<std::vector<Row>> Maker::make() {
+  std::vector<Run> runs;
+  std::vector<std::size_t> live;
+  for (const auto& s : chain_) {
+    runs.push_back(run(s));
+    auto& last = runs.back();
+    if (last.lost && !cutting_.as_cut)
+      return fail({.code = ErrorCode::out_of_range,
+                   .member = "pieces/" + std::to_string(last.piece),
+                   .got = s.radius,
+                   .limit = least_radius(laying_, cutting_.kerf,
+                                         std::max(std::abs(s.from.y()), std::abs(s.to.y()))),
+                   .unit = "mm",
+                   .hint = "a hollow tighter than the kerf; corners as_cut accepts it"});
+    if (!last.lost) live.push_back(runs.size() - 1);
+  }
+  if (live.empty())
+    return fail({.code = ErrorCode::out_of_range, .hint = "it is narrower than the kerf"});
+  for (std::size_t i = 0; i < live.size() && runs.size() > 1; ++i)
+    TRY(join(runs[live[i]], runs[live[(i + 1) % live.size()]]));
+  std::vector<Row> out;
+  auto at = runs[live.back()].rows.back().torch;  // the axis waits there where the beam cannot go
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].lost)
+      for (auto& row : runs[i].rows) row.torch = at;
+    else
+      at = runs[i].rows.back().torch;
+    out.insert(out.end(), runs[i].rows.begin(), runs[i].rows.end() - 1);
+    // A corner keeps both its places; where the line goes on, the next run begins with the same.
+    const auto& next = runs[(i + 1) % runs.size()];
+    if ((runs[i].rows.back().torch - next.rows.front().torch).norm() > kSame && !next.lost)
+      out.push_back(runs[i].rows.back());
+  }
+  return out;
+}
+
+/// The torch's line must not cross itself: where it does, the contour is narrower than the kerf.
+Result<void> check_line(const std::vector<Row>& rows) {
+  math::Polygon line;
+  for (const auto& row : rows) {
+    line.x.push_back(row.torch.x());
+    line.y.push_back(row.torch.y());
+  }
+  double twice = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    twice += cross(rows[i].torch, rows[(i + 1) % rows.size()].torch);
+  if (twice > 0.0 && !(math::crossed_area(line) > kLineCrossed * twice)) return {};
+  return fail({.code = ErrorCode::out_of_range, .hint = "somewhere it is narrower than the kerf"});
+}
+
+}  // namespace
+
+double least_radius(const Laying& laying, double kerf, double b) {
+  const double ratio = laying.outer() / laying.inner();
+  if (laying.lay() == Lay::prism) return 0.5 * kerf;
+  if (laying.lay() == Lay::developed) return 0.5 * kerf * ratio * ratio;
+  return 0.5 * kerf * laying.stretch(b) / ratio;
+}
+
+Flat kerf_offset(const Laying& laying, double kerf, const Flat& m) {
+  const double half = 0.5 * kerf;
+  if (laying.lay() == Lay::prism || kerf == 0.0) return -half * m;
+  const double outer = laying.outer(), inner = laying.inner(), eps = half / inner;
+  const double x = inner * m.x(), y = outer * m.y();
+  const double sum = x * x + y * y;  // Q = y^2/x^2, each term times x^2/sum
+  const double share = y * y / sum;
+  const double root = std::sqrt(std::max(0.0, 1.0 - 4.0 * eps * eps * share * (x * x / sum)));
+  const double part = 2.0 * share / (1.0 + root);
+  return {-std::copysign(half * std::sqrt(std::max(0.0, 1.0 - part)), m.x()),
+          -std::copysign(outer * elementary::asin(eps * std::sqrt(part)), m.y())};
+}
+
+Result<bevel::Hole> rows(const Laying& laying, const Chain& chain, const Cutting& cutting) {
+  TRY(const auto made, Maker(laying, chain, cutting).make());
+  TRY(check_line(made));
+  bevel::Hole out{.far = laying.far()};
+  const bool prism = laying.lay() == Lay::prism;
+  const double outer = laying.outer(), inner = laying.inner();
+  for (const auto& [edge, torch] : made) {
+    out.phi.push_back(laying.phase(laying.turn(edge.y(), outer)));
+    out.phi_inner.push_back(laying.phase(laying.turn(edge.y(), inner)));
+    out.z.push_back(edge.x());
+    const double lean = prism ? elementary::asin(torch.y() / outer) : 0.0;
+    out.a.push_back(laying.far() ? lean : -lean);
+    out.torch_phi.push_back(laying.phase(prism ? lean : torch.y() / outer));
+    out.torch_phi_inner.push_back(
+        laying.phase(prism ? elementary::asin(torch.y() / inner) : torch.y() / outer));
+    out.torch_z.push_back(torch.x());
+  }
+  out.z_inner = out.z;
+  out.torch_z_inner = out.torch_z;
+  out.b.assign(out.phi.size(), 0.0);
+  for (std::size_t i = 0; i < out.phi.size(); ++i) {
+    const auto j = (i + 1) % out.phi.size();
+    out.developed.push_back(out.length_total);
+    out.length_total += elementary::hypot(outer * (out.phi[j] - out.phi[i]), out.z[j] - out.z[i]);
+  }
+  return out;
+}
+
+}  // namespace tubecut::cutout

@@ -1,0 +1,139 @@
+#include "core/cutout/sizes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/cutout/rows.hpp"
+
+namespace tubecut::cutout {
+namespace {
+
+/// What is below its least.
+void at_least(double value, double least, bool equal, const char* member, const char* hint,
+              std::vector<Issue>& out) {
+  const double slack = 1e-9 * least;
+  if (equal ? value >= least - slack : value > least) return;
+  out.push_back({.code = ErrorCode::out_of_range,
+                 .member = member,
+                 .got = value,
+                 .limit = least,
+                 .unit = "mm",
+                 .hint = hint});
+}
+
+constexpr const char* kNarrow = "the beam is as wide as the kerf, and wider on the bore";
+constexpr const char* kTight =
+    "the beam cannot follow a tighter corner; corners as_cut accepts what it leaves";
+
+struct Sizes {
+  const Spec& spec;
+  const Laying& laying;
+  double kerf;
+
+  /// Twice the least radius: what a shape is wide at least.
+  [[nodiscard]] double width(double b) const { return 2.0 * least_radius(laying, kerf, b); }
+  [[nodiscard]] bool prism() const { return laying.lay() == Lay::prism; }
+
+  std::vector<Issue> operator()(const Circle& c) const {
+    std::vector<Issue> out;
+    at_least(c.diameter, width(0.5 * c.diameter), !prism(), "shape/diameter", kNarrow, out);
+    return out;
+  }
+  std::vector<Issue> operator()(const Slot& s) const {
+    std::vector<Issue> out;
+    at_least(s.length, s.width, true, "shape/length", "over all, so at least the width", out);
+    const auto chain = turned(slot(std::max(s.length, s.width), s.width), spec.turn);
+    at_least(s.width, width(bounds(chain).most.y()), !prism(), "shape/width", kNarrow, out);
+    return out;
+  }
+  std::vector<Issue> operator()(const Rectangle& r) const {
+    std::vector<Issue> out;
+    const auto box = bounds(turned(rectangle(r.along, r.round, 0.0), spec.turn));
+    const double least = width(box.most.y());
+    at_least(r.along, least, !prism(), "shape/along", kNarrow, out);
+    at_least(r.round, least, !prism(), "shape/round", kNarrow, out);
+    const double most = 0.5 * std::min(r.along, r.round);
+    if (r.radius > most)
+      out.push_back({.code = ErrorCode::out_of_range,
+                     .member = "shape/corner_radius",
+                     .got = r.radius,
+                     .limit = most,
+                     .unit = "mm",
+                     .hint = "at most half of the shorter side"});
+    if (!spec.as_cut && out.empty())
+      at_least(r.radius, 0.5 * least, true, "shape/corner_radius", kTight, out);
+    return out;
+  }
+  std::vector<Issue> operator()(const Contour&) const { return {}; }
+};
+
+/// How deep a place lies within the chain, mm; below 0 outside.
+double depth(const Chain& chain, const Flat& p) {
+  const double least = distance(chain, p);
+  return holds(chain, p) ? least : -least;
+}
+
+struct Middle {
+  const Chain& chain;
+
+  Flat operator()(const Circle&) const { return Flat::Zero(); }
+  Flat operator()(const Slot&) const {
+    Flat best = Flat::Zero();
+    for (const auto& s : chain)
+      if (s.arc() && s.centre.x() < best.x()) best = s.centre;
+    return best;
+  }
+  Flat operator()(const Rectangle&) const { return Flat::Zero(); }
+  /// By a grid that grows finer about its best.
+  Flat operator()(const Contour&) const {
+    constexpr int kPlaces = 16, kRounds = 4;
+    const auto box = bounds(chain);
+    Flat best = 0.5 * (box.least + box.most), half = 0.5 * (box.most - box.least);
+    double deepest = depth(chain, best);
+    for (int round = 0; round < kRounds; ++round) {
+      const Flat middle = best;
+      for (int i = -kPlaces; i <= kPlaces; ++i)
+        for (int j = -kPlaces; j <= kPlaces; ++j) {
+          const Flat p = middle + Flat(half.x() * i / kPlaces, half.y() * j / kPlaces);
+          if (const double here = depth(chain, p); here > deepest) {
+            deepest = here;
+            best = p;
+          }
+        }
+      half *= 2.0 / kPlaces;
+    }
+    return best;
+  }
+};
+
+}  // namespace
+
+std::vector<Issue> check_sizes(const Spec& spec, const Laying& laying, double kerf) {
+  return std::visit(Sizes{spec, laying, kerf}, spec.shape);
+}
+
+std::vector<Issue> check_open(const Chain& chain, const Laying& laying) {
+  const auto box = bounds(chain);
+  if (laying.lay() == Lay::developed) {
+    const double round = box.most.y() - box.least.y(), girth = kTwoPi * laying.outer();
+    if (round < girth) return {};
+    return {{.code = ErrorCode::open_profile,
+             .member = "shape",
+             .got = round,
+             .limit = girth,
+             .unit = "mm",
+             .hint = "it reaches round the whole tube"}};
+  }
+  const double half = std::max(box.most.y(), -box.least.y());
+  if (half < laying.inner()) return {};
+  return {{.code = ErrorCode::open_profile,
+           .member = "shape",
+           .got = half,
+           .limit = laying.inner(),
+           .unit = "mm",
+           .hint = "it reaches beyond the bore at its side"}};
+}
+
+Flat deep_in(const Spec& spec, const Chain& chain) { return std::visit(Middle{chain}, spec.shape); }
+
+}  // namespace tubecut::cutout

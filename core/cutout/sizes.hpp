@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/cutout/cutout.hpp"
+
+namespace tubecut::cutout {
+
+/// Whether a kerf fits into the shape, by its own fields: shape/diameter, shape/width, ...
+[[nodiscard]] std::vector<Issue> check_sizes(const Spec& spec, const Laying& laying, double kerf);
+
+/// Whether the chain crosses the bore twice: open_profile.
+[[nodiscard]] std::vector<Issue> check_open(const Chain& chain, const Laying& laying);
+
+/// The place furthest from the chain within it; of simple shapes its middle, of a slot the centre
+/// of the end with the lower z.
+[[nodiscard]] Flat deep_in(const Spec& spec, const Chain& chain);
+
+}  // namespace tubecut::cutout

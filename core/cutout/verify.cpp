@@ -1,0 +1,122 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+#include "core/bevel/beam/beam.hpp"
+#include "core/cutout/cutout.hpp"
+#include "core/math/cylinder.hpp"
+#include "core/math/quadrature.hpp"
+
+namespace tubecut::cutout {
+namespace {
+
+using Eigen::Vector3d;
+using math::cylinder_point;
+
+constexpr double kOnChain = 1e-9;   // mm
+constexpr double kVolume = 1e-9;    // of itself
+constexpr double kApart = 0.05;     // mm between the places of a wall that the beam is held against
+constexpr int kMostPlaces = 2'000;  // of them
+constexpr int kRings = 16, kGauss = 8, kPieces = 4;
+
+/// How far a row's two points in space are off the chain, by their coordinates about the anchor.
+double off_chain(const Mould& mould, std::size_t row) {
+  const auto& laying = mould.laying;
+  const auto& rows = mould.rows;
+  const Vector3d outer = cylinder_point(laying.outer(), rows.phi[row], rows.z[row]);
+  const Vector3d inner = cylinder_point(laying.inner(), rows.phi_inner[row], rows.z_inner[row]);
+  const auto off = [&](double a, double b) { return distance(mould.chain, {a, b}); };
+  const double wall = inner.head<2>().normalized().dot(
+      Eigen::Vector2d(-outer.y(), outer.x()));  // 0 where it stands square
+  if (laying.lay() == Lay::prism)
+    return worst_of({off(outer.z(), outer.y()), off(inner.z(), inner.y())});
+  if (laying.lay() == Lay::bored) return worst_of({off(inner.z(), inner.y()), std::abs(wall)});
+  return worst_of(
+      {off(outer.z(), laying.outer() * elementary::atan2(outer.y(), outer.x())), std::abs(wall)});
+}
+
+/// Places of the finished edge on both walls and between them.
+std::vector<Vector3d> wall_places(const Mould& mould) {
+  double length = 0.0;
+  for (const auto& s : mould.chain) length += s.length();
+  const double apart = std::max(kApart, length / kMostPlaces);
+  std::vector<Vector3d> out;
+  for (const auto& s : mould.chain) {
+    const int parts = std::max(1, static_cast<int>(std::ceil(s.length() / apart)));
+    for (int i = 0; i < parts; ++i) {
+      const auto p = s.at(static_cast<double>(i) / parts);
+      for (const double share : {0.0, 0.5, 1.0}) {
+        const double rho =
+            mould.laying.inner() + share * (mould.laying.outer() - mould.laying.inner());
+        out.push_back(
+            cylinder_point(rho, mould.laying.phase(mould.laying.turn(p.y(), rho)), p.x()));
+      }
+    }
+  }
+  return out;
+}
+
+/// How far a beam of the kerf's width reaches into the part, mm; at the rows and half way between.
+double gouge(const Mould& mould, double kerf) {
+  const auto places = wall_places(mould);
+  const auto& r = mould.rows;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < r.phi.size(); ++i)
+    for (const double share : {0.0, 0.5}) {
+      const auto j = (i + 1) % r.phi.size();
+      const auto mixed = [&](const std::vector<double>& of) {
+        return (1.0 - share) * of[i] + share * of[j];
+      };
+      const Vector3d from =
+          cylinder_point(mould.laying.inner(), mixed(r.torch_phi_inner), mixed(r.torch_z_inner));
+      const Vector3d way =
+          (cylinder_point(mould.laying.outer(), mixed(r.torch_phi), mixed(r.torch_z)) - from)
+              .normalized();
+      double nearest = 0.25 * kerf * kerf;
+      for (const auto& p : places) {
+        const Vector3d off = p - from;
+        const double along = off.dot(way);
+        nearest = std::min(nearest, off.squaredNorm() - along * along);
+      }
+      worsen(worst, 0.5 * kerf - std::sqrt(std::max(0.0, nearest)));
+    }
+  return worst;
+}
+
+}  // namespace
+
+double volume_by_rings(const Mould& mould) {
+  static const auto kAcross = math::gauss_legendre(kRings), kAlong = math::gauss_legendre(kGauss);
+  const double inner = mould.laying.inner(), wall = mould.laying.outer() - inner;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < kAcross.nodes.size(); ++k) {
+    const double v = 0.5 * (1.0 + kAcross.nodes[k]), rho = inner + v * v * wall;
+    double ring = 0.0;
+    for (const auto& s : mould.chain) {
+      const int pieces = kPieces * (1 + static_cast<int>(12.0 * std::abs(s.sweep) / kTwoPi));
+      for (int piece = 0; piece < pieces; ++piece)
+        for (std::size_t g = 0; g < kAlong.nodes.size(); ++g) {
+          const double share = (piece + 0.5 * (1.0 + kAlong.nodes[g])) / pieces;
+          ring += 0.5 * kAlong.weights[g] / pieces * s.length() * s.along(share).x() *
+                  mould.laying.turn(s.at(share).y(), rho);
+        }
+    }
+    sum += kAcross.weights[k] * v * wall * rho * std::abs(ring);
+  }
+  return sum;
+}
+
+std::vector<Check> verify(const Layout& layout, const Ground& ground) {
+  double edge = 0.0, deepest = 0.0, volume = 0.0;
+  for (const auto& mould : layout.moulds) {
+    for (std::size_t i = 0; i < mould.rows.phi.size(); ++i) worsen(edge, off_chain(mould, i));
+    if (ground.kerf > 0.0) worsen(deepest, gouge(mould, ground.kerf));
+    worsen(volume, std::abs(mould.taken.volume / volume_by_rings(mould) - 1.0));
+  }
+  return {{"cutout_edge", edge, kOnChain, "mm"},
+          {"cutout_gouge", deepest, bevel::kGougeLimit, "mm"},
+          {"cutout_volume", volume, kVolume, ""}};
+}
+
+}  // namespace tubecut::cutout

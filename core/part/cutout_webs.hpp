@@ -1,0 +1,16 @@
+#pragma once
+
+#include "core/part/part.hpp"
+
+namespace tubecut::part {
+
+/// Checks that every cut-out lies within the part and clear of every other opening, and measures
+/// the webs beside it on the developed outside and the developed bore.
+///
+/// Errors    cutout_off_part (cutouts/k/at/z, or cutouts/k/pattern), cutouts_cross (cutouts/k). All
+///           of them at once, one a spec.
+/// Accuracy  webs within 2 um: edges are chords that leave the exact ones by 1 um at most.
+/// Source    docs/theory/cutouts.md, section 5.
+[[nodiscard]] Result<CutoutReport> check_cutouts(const PartSpec& spec, const Part& part);
+
+}  // namespace tubecut::part

@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/call.hpp"
+
+namespace tubecut::testing {
+namespace {
+
+using api::Json;
+
+constexpr const char* kParts = "/v1/parts";
+
+Json json(const std::string& text) { return *api::parse(text); }
+
+/// A tube of 88.9 x 5, 400 long, square at both ends, with these cut-outs.
+Json part_with(Json cutouts) {
+  return with(json(R"({"target": {"outer_diameter_mm": 88.9, "wall_mm": 5, "length_mm": 400},
+                       "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+                       "kerf_mm": 1.5})"),
+              "cutouts", std::move(cutouts));
+}
+
+Json list(const std::string& one) { return json("[" + one + "]"); }
+
+std::string circle(const char* rest = "") {
+  return std::string(R"({"id": "p", "shape": {"kind": "circle", "diameter_mm": 30},
+                         "at": {"z_mm": 100, "phi_deg": 40})") +
+         rest + "}";
+}
+
+/// The golden file's contour pieces as a request has them, on the local plane.
+Json on_the_wire(Json cutout) {
+  const auto& shape = at(cutout, "shape");
+  if (text(shape, "kind") != "contour") return cutout;
+  Json::Array pieces;
+  for (const auto& piece : *at(shape, "pieces").as<Json::Array>()) {
+    const auto& all = *piece.as<Json::Array>();
+    pieces.push_back(
+        Json{Json::Object{{"kind", all[0]}, {"to_mm", Json{Json::Array{all[1], all[2]}}}}});
+  }
+  auto out = with(std::move(cutout), "shape",
+                  Json{Json::Object{{"kind", Json{"contour"}},
+                                    {"start_mm", at(shape, "start")},
+                                    {"pieces", Json{std::move(pieces)}}}});
+  return out;
+}
+
+TEST(Cutouts, AreTheIndependentProgramsInThePartsAnswer) {
+  const auto all = golden("cutouts.json");
+  const auto& expected = (*at(all, "cutouts").as<Json::Array>())[1];
+  ASSERT_EQ(text(expected, "name"), "round_circle_normal");
+  const auto made = post(kParts, part_with(list(circle(R"(, "tilt": "free")"))));
+  ASSERT_FALSE(made.outcome.error) << made.outcome.body.substr(0, 1500);
+  const auto& group = at(made.body, "result/cutouts/0");
+  EXPECT_NEAR(number(group, "area_outer_mm2"), number(expected, "area_outer"), 1e-6);
+  EXPECT_NEAR(number(group, "volume_mm3"), number(expected, "volume"), 1e-5);
+  const auto phi = numbers(group, "points/phi_deg"), z = numbers(group, "points/z_mm"),
+             inner = numbers(group, "points/phi_inner_deg");
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    const double b = 44.45 * std::sin((phi[i] - 40.0) * kRadPerDeg);
+    EXPECT_NEAR(std::hypot(b, z[i] - 100.0), 15.0, 1e-9);
+    EXPECT_NEAR(39.45 * std::sin((inner[i] - 40.0) * kRadPerDeg), b, 1e-9);
+  }
+  const double whole =
+      number(post(kParts, part_with(Json{Json::Array{}})).body, "result/lengths/volume_mm3");
+  EXPECT_NEAR(whole - number(made.body, "result/lengths/volume_mm3"), number(expected, "volume"),
+              1e-5);
+}
+
+TEST(Cutouts, AreRefusedWhereTheIndependentProgramRefusesThem) {
+  const auto all = golden("cutouts.json");
+  std::size_t seen = 0;
+  for (const auto& one : *at(all, "refusals").as<Json::Array>()) {
+    const auto name = text(one, "name");
+    if (name.starts_with("countersink")) continue;
+    Json::Array cutouts;
+    for (const auto& cutout : *at(one, "cutouts").as<Json::Array>())
+      cutouts.push_back(with(on_the_wire(cutout), "tilt", Json{"free"}));
+    const auto refused = post(kParts, part_with(Json{std::move(cutouts)}));
+    ASSERT_TRUE(refused.outcome.error) << name;
+    EXPECT_EQ(text(refused.body, "errors/0/code"), text(one, "code")) << name;
+    EXPECT_EQ(text(refused.body, "errors/0/pointer"), text(one, "pointer")) << name;
+    EXPECT_EQ(at(refused.body, "errors").as<Json::Array>()->size(), 1u) << name;
+    ++seen;
+  }
+  EXPECT_EQ(seen, 17u);
+}
+
+TEST(Cutouts, TheEchoIsTheSameJob) {
+  const auto first = post(
+      kParts,
+      part_with(list(R"({"id": "w", "shape": {"kind": "rectangle", "along_mm": 40, "round_mm": 20},
+                         "at": {"z_mm": 100, "girth_mm": 50}})")));
+  ASSERT_FALSE(first.outcome.error) << first.outcome.body.substr(0, 1500);
+  const auto again = post(kParts, at(first.body, "request"));
+  EXPECT_EQ(text(first.body, "job/input_sha256"), text(again.body, "job/input_sha256"));
+  EXPECT_EQ(text(first.body, "job/result_sha256"), text(again.body, "job/result_sha256"));
+  EXPECT_GT(number(first.body, "request/cutouts/0/shape/corner_radius_mm"), 0.75);
+}
+
+TEST(Cutouts, FromTheFinishIsTheLengthLessFromTheStart) {
+  const auto start = post(kParts, part_with(list(circle())));
+  const auto finish =
+      post(kParts, part_with(list(R"({"id": "p", "shape": {"kind": "circle", "diameter_mm": 30},
+                                 "at": {"z_mm": 300, "phi_deg": -140, "from": "finish", "opposite": true}})")));
+  const auto a = numbers(start.body, "result/cutouts/0/points/z_mm");
+  const auto b = numbers(finish.body, "result/cutouts/0/points/z_mm");
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-9);
+  EXPECT_NEAR(number(finish.body, "result/cutouts/0/instances/0/phi_deg"), 40.0, 1e-9);
+}
+
+TEST(Cutouts, AStraightToolPassesWhereTheTorchDoesNotLean) {
+  for (const char* tilt : {"axial", "none"}) {
+    const auto made = post(
+        kParts, part_with(list(circle(
+                    (R"(, "wall": "through", "tilt": ")" + std::string(tilt) + "\"").c_str()))));
+    ASSERT_FALSE(made.outcome.error);
+    for (const char* side : {"0", "1"}) {
+      const auto points = std::string("result/cutouts/") + side + "/points/";
+      const auto phi = numbers(made.body, points + "phi_deg"),
+                 inner = numbers(made.body, points + "phi_inner_deg"),
+                 z = numbers(made.body, points + "z_mm");
+      for (std::size_t i = 0; i < phi.size(); ++i) {
+        EXPECT_EQ(phi[i], inner[i]);
+        EXPECT_NEAR(std::hypot(39.45 * std::sin((inner[i] - 40.0) * kRadPerDeg), z[i] - 100.0),
+                    15.0, 1e-9);
+      }
+    }
+  }
+}
+
+TEST(Cutouts, AcceptHoldsTheirWebsAndSizes) {
+  const auto two = list(circle() + R"(, {"id": "q", "shape": {"kind": "circle", "diameter_mm": 8},
+                                         "at": {"z_mm": 130, "phi_deg": 40}, "wall": "developed"})");
+  const auto made =
+      post(kParts, with(part_with(two), "accept", json(R"({"min_web_mm": 12, "min_diameter_mm": 7,
+                                               "min_hole_to_end_mm": 86})")));
+  ASSERT_FALSE(made.outcome.error) << made.outcome.body.substr(0, 1500);
+  EXPECT_NEAR(number(made.body, "result/cutout_report/web/width_mm"), 11.0, 2e-3);
+  EXPECT_NEAR(number(made.body, "result/cutout_report/to_end/width_mm"), 85.0, 2e-3);
+  EXPECT_EQ(text(made.body, "verdict/status"), "reject");
+}
+
+TEST(Cutouts, AllOfThemAreInEveryFile) {
+  const auto body =
+      api::dump(part_with(list(circle(R"(, "wall": "through")") +
+                               R"(, {"id": "s", "shape": {"kind": "slot", "length_mm": 30,
+                                                   "width_mm": 10}, "at": {"z_mm": 250, "phi_deg": 0}})")));
+  const auto text_of = [&](const char* query) {
+    const auto posted = post(kParts, body, query);
+    EXPECT_FALSE(posted.outcome.error) << query << posted.outcome.body.substr(0, 800);
+    return posted.outcome.body;
+  };
+  const auto count = [](const std::string& in, const std::string& what) {
+    std::size_t n = 0;
+    for (auto at = in.find(what); at != std::string::npos; at = in.find(what, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count(text_of("format=nc1"), "\r\nBO\r\n"), 2u);
+  EXPECT_EQ(count(text_of("format=nc1"), "\r\nIK\r\n"), 1u);
+  EXPECT_EQ(count(text_of("format=dxf"), "p far:"), 1u);
+  EXPECT_GE(count(text_of("format=step"), "cut-out p far"), 1u);
+  EXPECT_GE(count(text_of("format=svg"), "slot 30 x 10"), 1u);
+  EXPECT_GE(count(text_of("format=csv"), "cut-out s"), 1u);
+  EXPECT_GE(count(text_of("format=gcode&speed=20&lead_mm=3"), "cut-out p"), 2u);
+}
+
+TEST(Cutouts, AThousandAndMoreAreOneShapeMoved) {
+  const auto made = post(kParts, example("parts/perforated-tube.json"));
+  ASSERT_FALSE(made.outcome.error) << made.outcome.body.substr(0, 1500);
+  EXPECT_EQ(at(made.body, "result/cutouts").as<Json::Array>()->size(), 1u);
+  EXPECT_EQ(at(made.body, "result/cutouts/0/instances").as<Json::Array>()->size(), 1792u);
+  // Staggered rows: the nearest are half a pitch along and one round.
+  const double round = 57.15 * 11.25 * kRadPerDeg;
+  EXPECT_NEAR(number(made.body, "result/cutout_report/web/width_mm"),
+              std::min(10.0, std::hypot(5.0, round * 55.15 / 57.15)) - 6.0, 0.2);
+}
+
+}  // namespace
+}  // namespace tubecut::testing
