@@ -29,6 +29,7 @@ HOLDS = {
     "core/motion": ("from a cut to pulses:", "path, plan, schedule, replay"),
     "core/torch": ("the torch round each cut:", "start, leads, pierce"),
     "core/cutoff": ("rotary cut-off:", "the feed curve"),
+    "core/cutout": ("openings of their own:", "shapes, patterns, webs"),
     "core/section": ("tubes that are not round:", "outline, wall, standards"),
     "core/groove": ("equal-area groove", "and its mill path"),
 }

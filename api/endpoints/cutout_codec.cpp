@@ -46,7 +46,7 @@ bool decode_as_cut(Reader& in) {
   return in.choice("corners", kCorners, false);
 }
 
-cutout::Contour decode_contour(Reader& in) {
+cutout::Contour decode_contour_shape(Reader& in) {
   static constexpr std::array kKinds{Option<bool>{"line", false}, Option<bool>{"arc", true}};
   static constexpr std::array kSenses{Option<bool>{"ccw", false}, Option<bool>{"cw", true}};
   cutout::Contour out{.start = decode_place(in, "start_mm"), .pieces = {}};
@@ -104,7 +104,7 @@ void decode_shape(Reader& in, const Common& common, cutout::Lay lay, cutout::Spe
     }
     case Kind::contour:
       out.as_cut = decode_as_cut(in);
-      out.shape = decode_contour(in);
+      out.shape = decode_contour_shape(in);
       return;
   }
 }
