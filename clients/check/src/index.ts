@@ -1,0 +1,91 @@
+/** A second opinion on an answer of the tubecut service: `certify` recomputes what the answer states by formulas of its own. */
+import {checkHashes, checkRequest} from './identity.js';
+import type {Json} from './json.js';
+import {checkHoles} from './holes.js';
+import {checkNodes, cutOfNode} from './nodes.js';
+import {checkProfile} from './profiles.js';
+import {type Check, Report, Scope} from './report.js';
+import type {Body, Size} from './solids.js';
+import {checkEnd, cutOf, type Knowledge} from './tables.js';
+
+export type {Check} from './report.js';
+
+/** What names in a request mean: the answers of GET /v1/tubes and GET /v1/machines. */
+export interface Names {
+  tubes?: Json;
+  machines?: Json;
+}
+
+export interface Certificate {
+  passed: boolean; // all checks that were made
+  checks: Check[];
+  /** Members of the answer that no check looks at, by pointer with `*` for any index; why, if there is a reason of its own. */
+  notChecked: {pointer: string; why: string}[];
+}
+
+/** Checks the answer, as the service sent it, to the request; without a request that which the answer echoes. */
+export function certify(answer: string, request?: string, names: Names = {}): Certificate {
+  const body = JSON.parse(answer) as Body;
+  const report = new Report();
+  const know: Knowledge = {
+    sizes: new Map(listOf(names.tubes, 'tubes').map((row) => [String(row['size']), row as unknown as Size])),
+    machines: new Map(listOf(names.machines, 'machines').map((row) => [String(row['name']), row['machine'] as Body])),
+  };
+  checkHashes(new Scope(report, ''), answer);
+  if (request !== undefined) checkRequest(new Scope(report, ''), JSON.parse(request) as Json, body['request'] as Json);
+  const job = body['job'] as Body | undefined;
+  if (body['result'] && job) guarded(new Scope(report), String(job['endpoint']), () => checkResult(new Scope(report), String(job['endpoint']), body, know));
+  return {passed: report.passed, checks: [...report.checks.values()], notChecked: uncovered(body, report)};
+}
+
+const listOf = (answer: Json | undefined, name: string): Body[] => ((answer as Body | undefined)?.[name] ?? []) as Body[];
+
+/** If a result has not even the form that its checks read, that is a failed check, and no end of the program. */
+function guarded(scope: Scope, endpoint: string, check: () => void): void {
+  try {
+    check();
+  } catch (error) {
+    scope.most('readable', 1, 0, '', `${endpoint}: ${(error as Error).message}`);
+  }
+}
+
+function checkResult(scope: Scope, endpoint: string, answer: Body, know: Knowledge): void {
+  const [request, result] = [answer['request'] as Body, answer['result'] as Body];
+  const ids = (result['cutter_ids'] ?? []) as string[];
+  switch (endpoint) {
+    case 'intersections': {
+      const cut = request['node'] ? cutOfNode(request, ids, know) : cutOf(request, know);
+      for (const profile of result['profiles'] as Body[]) checkProfile(scope.under('profiles/*'), cut, profile);
+      return;
+    }
+    case 'bevel-tables':
+      checkEnd(scope, request['node'] ? cutOfNode(request, ids, know) : cutOf(request, know), result, know);
+      return;
+    case 'nodes':
+      checkNodes(scope, request, result, know);
+      return;
+    case 'holes':
+      checkHoles(scope, request, result, know.sizes);
+      return;
+    default:
+      scope.not('', `answers of ${endpoint} are not covered`);
+  }
+}
+
+/** Numbers of the result that no check covers. */
+function uncovered(body: Body, report: Report): {pointer: string; why: string}[] {
+  const found = new Map<string, string>();
+  const walk = (value: Json, pointer: string) => {
+    if (report.covered.has(pointer)) return;
+    if (typeof value === 'number') found.set(pointer, '');
+    else if (Array.isArray(value)) {
+      if (value.every((item) => typeof item === 'number' || item === null) && value.length) {
+        if (!report.covered.has(`${pointer}/*`)) found.set(pointer, '');
+      } else for (const item of value) walk(item, `${pointer}/*`);
+    } else if (value && typeof value === 'object') for (const [name, item] of Object.entries(value)) walk(item, `${pointer}/${name}`);
+  };
+  walk((body['result'] ?? null) as Json, '/result');
+  const reasons = [...report.notes];
+  for (const pointer of found.keys()) found.set(pointer, reasons.find(([base]) => pointer.startsWith(base))?.[1] ?? '');
+  return [...found].map(([pointer, why]) => ({pointer, why}));
+}
