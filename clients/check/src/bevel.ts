@@ -19,6 +19,8 @@ export interface Cut {
   torch: {min: number; max: number};
   untilted: boolean; // a head that stays at B = 0
   smoothing: Body;
+  metal?: Solid[]; // the partners without gap and coating
+  setIn?: ReadonlySet<number>; // partners that the end is set into: flush, without groove
 }
 
 export const rootRadius = (cut: Cut) => (cut.root === 'inner' ? cut.inner : cut.outer);
@@ -202,7 +204,7 @@ export function checkRows(scope: Scope, cut: Cut, rows: Columns, zones: string[]
     }
     if (!has('groove_deg', 'tau_deg', 'b_raw_deg')) continue;
     scope.same('tau', at('tau_deg'), 90 - psi / RAD + at('groove_deg'), loose, 'deg', where);
-    const wanted = grooveOf(cut.groove, psi);
+    const wanted = cut.setIn?.has(by) && cut.groove['rule'] !== 'square' ? 0 : grooveOf(cut.groove, psi);
     if (wanted !== undefined) scope.same('groove', at('groove_deg'), wanted / RAD, loose, 'deg', where);
     if (zones && cut.groove['rule'] === 'zones') {
       const {zone} = zoneAt(cut.groove, psi / RAD) ?? {zone: ''};
@@ -212,7 +214,14 @@ export function checkRows(scope: Scope, cut: Cut, rows: Columns, zones: string[]
     scope.same('b_rule', at('b_raw_deg'), Math.min(cut.torch.max, Math.max(cut.torch.min, rule)), loose * (1 + 1 / Math.max(n[2], 1e-6)), 'deg', where);
     if (has('b_required_deg') && !jumps.some((jump) => Math.abs(Math.sin((jump - phi) / 2)) < 1e-9)) {
       const need = face ? required(cut, phi, cut.inner + face, at('z_face_mm'), cut.outer) : required(cut, phi, rho, own, cut.outer);
-      scope.same('b_required', at('b_required_deg'), need / RAD, 5e-9 + grazing / RAD + 1e-11 / Math.max(Math.hypot(n[0], n[2]), 1e-9), 'deg', where);
+      scope.same(
+        'b_required',
+        at('b_required_deg'),
+        need / RAD,
+        (cut.partners.every(({convex}) => convex) ? 5e-9 : 1e-6) + grazing / RAD + 1e-11 / Math.max(Math.hypot(n[0], n[2]), 1e-9),
+        'deg',
+        where,
+      );
     }
     if (has('gap_mm')) {
       scope.same('root_gap', at('gap_mm'), zRoot - own, 2e-10 + 1e-12 * Math.abs(own) + 10 * grazing, 'mm', where);

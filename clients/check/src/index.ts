@@ -1,8 +1,12 @@
 /** A second opinion on an answer of the tubecut service: `certify` recomputes what the answer states by formulas of its own. */
 import {checkHashes, checkRequest} from './identity.js';
 import type {Json} from './json.js';
+import {checkFeed} from './feed.js';
+import {checkFrame} from './frames.js';
+import {checkGroove} from './grooves.js';
 import {checkHoles} from './holes.js';
 import {checkNodes, cutOfNode} from './nodes.js';
+import {checkPart} from './parts.js';
 import {checkProfile} from './profiles.js';
 import {type Check, Report, Scope} from './report.js';
 import type {Body, Size} from './solids.js';
@@ -64,6 +68,18 @@ function checkResult(scope: Scope, endpoint: string, answer: Body, know: Knowled
     case 'nodes':
       checkNodes(scope, request, result, know);
       return;
+    case 'feed-curves':
+      checkFeed(scope, request, result);
+      return;
+    case 'frames':
+      checkFrame(scope, answer, know);
+      return;
+    case 'parts':
+      checkPart(scope, request, result, know);
+      return;
+    case 'grooves':
+      checkGroove(scope, request, result);
+      return;
     case 'holes':
       checkHoles(scope, request, result, know.sizes);
       return;
@@ -85,6 +101,7 @@ function uncovered(body: Body, report: Report): {pointer: string; why: string}[]
     } else if (value && typeof value === 'object') for (const [name, item] of Object.entries(value)) walk(item, `${pointer}/${name}`);
   };
   walk((body['result'] ?? null) as Json, '/result');
+  for (const part of (body['parts'] ?? []) as Body[]) walk(((part['answer'] as Body | undefined)?.['result'] ?? null) as Json, '/parts/*/answer/result');
   const reasons = [...report.notes];
   for (const pointer of found.keys()) found.set(pointer, reasons.find(([base]) => pointer.startsWith(base))?.[1] ?? '');
   return [...found].map(([pointer, why]) => ({pointer, why}));

@@ -14,6 +14,8 @@ export function wanted(cut: Cut, columns: Columns): number[] {
   });
 }
 
+const hasJump = (result: Body) => (result['events'] as Body[]).some(({kind}) => kind === 'jump');
+
 export function checkSmoothing(scope: Scope, cut: Cut, columns: Columns, result: Body, machine: Body | undefined): void {
   const has = ['b_deg', 'b_raw_deg', 'b_required_deg', 'developed_mm', 'length_mm', 'phi_deg'].every((name) => columns[name]);
   if (!has || cut.dihedral !== 'weld_side') return;
@@ -46,6 +48,10 @@ export function checkSmoothing(scope: Scope, cut: Cut, columns: Columns, result:
         `row ${i}`,
       );
     area += share * (at(b, i) - (from[i] as number));
+  }
+  if (hasJump(result)) {
+    scope.not('smoothed_area', 'at a jump, B before smoothing is not in the columns');
+    return;
   }
   const stated = result['smoothed_area'] as {area_deg_mm: number; least_deg_mm: number} | undefined;
   if (!stated) return;
@@ -80,17 +86,21 @@ function limitsOf(scope: Scope, cut: Cut, stated: {[name: string]: number} | und
 export function checkMutations(scope: Scope, cut: Cut, columns: Columns, result: Body): void {
   const phi = columns['phi_deg'];
   if (!phi || !columns['b_raw_deg'] || !columns['b_required_deg'] || cut.dihedral !== 'weld_side') return;
+  if (hasJump(result)) {
+    scope.not('mutations', 'at a jump, B before smoothing is not in the columns');
+    return;
+  }
   const limit = (cut.smoothing['mutation_limit_deg'] as number | undefined) ?? 10;
   const from = wanted(cut, columns);
-  const steps = from.flatMap((b, i): {phi_deg: number; step_deg: number}[] => {
+  const steps = from.flatMap((b, i): {phi_deg: number; next_deg: number; step_deg: number}[] => {
     const next = from[(i + 1) % from.length] as number;
-    const step = {phi_deg: phi[i] as number, step_deg: next - b};
+    const step = {phi_deg: phi[i] as number, next_deg: phi[(i + 1) % phi.length] as number, step_deg: next - b};
     return Math.abs(next - b) > limit ? [step] : [];
   });
   const stated = result['mutations'] as unknown as {phi_deg: number; step_deg: number}[];
   scope.same('mutations', stated.length, steps.length, 0, '');
   for (const {phi_deg, step_deg} of stated) {
-    const near = steps.map((step) => Math.abs(step.phi_deg - phi_deg) + Math.abs(step.step_deg - step_deg));
+    const near = steps.map((step) => Math.min(Math.abs(step.phi_deg - phi_deg), Math.abs(step.next_deg - phi_deg)) + Math.abs(step.step_deg - step_deg));
     scope.most('mutation', Math.min(...near), 1e-9 * 4, 'deg', `phi ${phi_deg}`);
   }
   scope.covers('mutations/*/phi_deg', 'mutations/*/step_deg');

@@ -4,13 +4,12 @@ import {readdirSync, readFileSync, statSync} from 'node:fs';
 import {after, before, test} from 'node:test';
 import {Service} from '../../../tests/contract/service.mjs';
 import {certify} from '../dist/index.js';
-import {random, requests} from './support/draw.mjs';
+import {endpoints, random, requests} from './support/draw.mjs';
 import {seal, spoil} from './support/spoil.mjs';
 
-const DRAWN = Number(process.env.CHECK_DRAWN ?? 40);
-const SPOILT = Number(process.env.CHECK_SPOILT ?? 240);
+const DRAWN = Number(process.env.CHECK_DRAWN ?? 24);
+const SPOILT = Number(process.env.CHECK_SPOILT ?? 200);
 const SEED = Number(process.env.CHECK_SEED ?? 50);
-const endpoints = ['intersections', 'bevel-tables', 'nodes', 'holes'];
 const examples = new URL('../../../examples/', import.meta.url);
 
 let service;
@@ -23,32 +22,40 @@ before(async () => {
 after(() => service.stop());
 
 const failures = ({checks}) => checks.filter(({passed}) => !passed).map(({name, value, limit, where}) => `${name}: ${value} > ${limit} ${where}`);
+// A connection that was idle while this program computed may be closed already.
+const ask = async (path, body) => {
+  const reply = await service.ask(path, {body});
+  return reply.status === 599 ? service.ask(path, {body}) : reply;
+};
 const files = (folder) => readdirSync(folder).flatMap((name) => {
   const path = new URL(name, folder);
   return statSync(path).isDirectory() ? files(new URL(`${name}/`, folder)) : name.endsWith('.json') ? [path] : [];
 });
 
+// A frame of hundreds of parts takes minutes; CHECK_FRAMES=all has them too.
+const large = (file) => process.env.CHECK_FRAMES !== 'all' && file.pathname.includes('/frames/') && !/k-node|jacket/.test(file.pathname);
+
 test('every example holds', async () => {
   let count = 0;
-  for (const file of files(examples)) {
+  for (const file of files(examples).filter((path) => !large(path))) {
     const endpoint = file.pathname.split('/').at(-2);
     const request = readFileSync(file, 'utf8');
-    const {status, text} = await service.ask(`/v1/${endpoint}`, {body: request});
+    const {status, text} = await ask(`/v1/${endpoint}`, request);
     assert.equal(status, 200, `${file.pathname}: ${text.slice(0, 300)}`);
     const certificate = certify(text, request, names);
     assert.deepEqual(failures(certificate), [], file.pathname);
-    count += endpoints.includes(endpoint);
+    count += 1;
   }
-  assert.ok(count >= 20, `${count} examples`);
+  assert.ok(count >= 40, `${count} examples`);
 });
 
 // Drawn answers, those that the service refuses left out.
 async function drawn(count, seed) {
   const answers = [];
-  for (const {endpoint, request} of requests(seed, endpoints)) {
+  for (const {endpoint, request} of requests(seed)) {
     if (answers.length === count) break;
     const body = JSON.stringify(request);
-    const {status, text} = await service.ask(`/v1/${endpoint}`, {body});
+    const {status, text} = await ask(`/v1/${endpoint}`, body);
     assert.ok(status === 200 || status === 422, `${status} ${body}`);
     if (status === 200) answers.push({request: body, text});
   }
