@@ -109,7 +109,7 @@ export function checkHole(scope: Scope, hole: Hole, result: Body): void {
       const psi = Math.atan2(norm(cross(N, m)), -dot(N, m));
       scope.same('hole_dihedral', at('dihedral_deg'), psi / RAD, 4e-9, 'deg', where);
       const g = unit(sub(N, mul(m, dot(N, m))));
-      if (!setOn) scope.same('hole_groove', at('groove_deg'), Math.atan2(dot(D, m), dot(D, g)) / RAD, 4e-9, 'deg', where);
+      scope.same('hole_groove', at('groove_deg'), Math.atan2(dot(D, m), dot(D, g)) / RAD, 4e-9, 'deg', where);
       if (hole.tilt === 'free' && !setOn) {
         const wanted = hole.groove['rule'] === 'square' ? Math.max(0, psi - Math.PI / 2) : (grooveOf(hole.groove, psi) ?? 0);
         const bound = Math.min(wanted, hole.torch.max * RAD + psi - Math.PI / 2);
@@ -123,15 +123,11 @@ export function checkHole(scope: Scope, hole: Hole, result: Body): void {
     const [a, b] = [here[i] as number, here[(i + 1) % count] as number];
     const stated = i + 1 < count ? (next[i + 1] as number) - (next[i] as number) : (result['length_mm'] as number) - (next[i] as number) + (next[0] as number);
     const own = Math.abs(integral(speed, a * RAD, (a + wrapped(b - a)) * RAD, 1e-11)); // the far hole runs against the branch's phase
-    if (!square) scope.same('hole_length', stated, own, 1e-7 + 1e-7 * own, 'mm', where);
+    scope.same('hole_length', stated, own, 1e-7 + 1e-7 * own, 'mm', where);
   }
-  const open = square ? ['branch_phi_deg', 'dihedral_deg', 'groove_deg', 'length_mm'] : setOn ? ['groove_deg'] : [];
-  scope.covers(
-    ...Object.keys(points)
-      .filter((name) => !open.includes(name))
-      .map((name) => `points/${name}`),
-    ...(square ? [] : ['length_mm']),
-  );
+  const open = square ? ['dihedral_deg', 'groove_deg'] : [];
+  const closed = Object.keys(points).filter((name) => !open.includes(name));
+  scope.covers('length_mm', ...closed.map((name) => `points/${name}`));
   checkFitUp(scope, hole, result, points);
   checkBeam(scope, hole, result, points);
 }

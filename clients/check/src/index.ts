@@ -9,8 +9,9 @@ import {checkNodes, cutOfNode} from './nodes.js';
 import {checkPart} from './parts.js';
 import {checkProfile} from './profiles.js';
 import {type Check, Report, Scope} from './report.js';
+import {checkSchedule} from './schedules.js';
 import type {Body, Size} from './solids.js';
-import {checkEnd, cutOf, type Knowledge} from './tables.js';
+import {checkEnd, cutOf, type Knowledge, machineOf} from './tables.js';
 
 export type {Check} from './report.js';
 
@@ -73,6 +74,9 @@ function checkResult(scope: Scope, endpoint: string, answer: Body, know: Knowled
       return;
     case 'frames':
       checkFrame(scope, answer, know);
+      return;
+    case 'pulse-schedules':
+      checkSchedule(scope, request, result, machineOf(request['machine'], know));
       return;
     case 'parts':
       checkPart(scope, request, result, know);

@@ -49,14 +49,14 @@ export function checkSmoothing(scope: Scope, cut: Cut, columns: Columns, result:
       );
     area += share * (at(b, i) - (from[i] as number));
   }
+  const stated = result['smoothed_area'] as {area_deg_mm: number; least_deg_mm: number} | undefined;
+  if (!stated) return;
+  scope.same('smoothed_area_least', stated.least_deg_mm, stated.area_deg_mm, 2e-6 * (1 + stated.area_deg_mm), 'deg mm');
   if (hasJump(result)) {
     scope.not('smoothed_area', 'at a jump, B before smoothing is not in the columns');
     return;
   }
-  const stated = result['smoothed_area'] as {area_deg_mm: number; least_deg_mm: number} | undefined;
-  if (!stated) return;
   scope.same('smoothed_area', stated.area_deg_mm, area, 1e-7 * (1 + area), 'deg mm');
-  scope.same('smoothed_area_least', stated.least_deg_mm, area, 2e-6 * (1 + area), 'deg mm');
   scope.covers('smoothed_area/area_deg_mm', 'smoothed_area/least_deg_mm');
 }
 
