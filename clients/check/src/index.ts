@@ -57,6 +57,11 @@ function guarded(scope: Scope, endpoint: string, check: () => void): void {
 function checkResult(scope: Scope, endpoint: string, answer: Body, know: Knowledge): void {
   const [request, result] = [answer['request'] as Body, answer['result'] as Body];
   const ids = (result['cutter_ids'] ?? []) as string[];
+  const {kind = 'round', size = ''} = (request['target'] ?? {}) as {kind?: string; size?: string};
+  if (kind !== 'round' || /^(?!NPS |CHS )./.test(size)) {
+    scope.not('', 'targets that are not round are not covered');
+    return;
+  }
   switch (endpoint) {
     case 'intersections': {
       const cut = request['node'] ? cutOfNode(request, ids, know) : cutOf(request, know);

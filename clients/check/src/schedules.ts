@@ -125,11 +125,9 @@ function checkWay(scope: Scope, request: Body, machine: Body, counts: Counts, st
   const sign = machine['b_positive'] === 'outer_edge_into_part' ? 1 : -1;
   const axes = machine['axes'] as unknown as Axis[];
   const path = axes.map((axis) => {
-    let at = 0;
-    return [
-      start[axis.name] as number,
-      ...Array.from({length: periods}, (_, i) => (start[axis.name] as number) + (at += counts[axis.name]?.[i] ?? 0) / scale(axis)),
-    ];
+    const at = [start[axis.name] as number];
+    for (let i = 0; i < periods; i += 1) at.push((at[i] as number) + (counts[axis.name]?.[i] ?? 0) / scale(axis));
+    return at;
   });
   const of = (name: string, i: number) => (path[axes.findIndex((axis) => axis.name === name)] as number[] | undefined)?.[i] ?? 0;
   const met = Array.from(
