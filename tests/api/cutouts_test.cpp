@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/angle.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {
