@@ -104,6 +104,7 @@ async function dropsIfc({browser, origin}, width, theme) {
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= width, 'the page is as wide as the screen');
   assert.equal(await page.locator('#example option:checked').innerText(), 'A job of your own');
   await page.locator('#tab-downloads').click();
+  await page.locator('#panel [name=purpose][value=packet]').check();
   await page.locator('#panel input[data-option=files][value=gcode]').uncheck();
   const [packet] = await Promise.all([page.waitForEvent('download', {timeout: 30000}), page.locator('#panel [data-media="application/zip"]').click()]);
   const listed = execFileSync('unzip', ['-Z1', await packet.path()], {encoding: 'utf8'}).trim().split('\n');

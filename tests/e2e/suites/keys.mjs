@@ -66,6 +66,7 @@ export const checks = {
       await formed(page);
       await then(page, () => page.locator('[data-pointer="/target/wall_mm"]').fill('4'));
       await page.locator('#tab-downloads').click();
+      await page.locator('#panel [value=data]').check();
       const [file] = await Promise.all([page.waitForEvent('download'), page.locator('[data-media="text/csv"]').first().click()]);
       assert.match(file.suggestedFilename(), /\.csv$/);
       await page.waitForURL(/~/);

@@ -163,6 +163,7 @@ export const checks = {
     assert.doesNotMatch(await page.locator('body').innerText(), /TypeError|refused/);
     assert.equal(await page.locator('[aria-invalid]').count(), 0);
     await page.locator('#tab-downloads').click();
+    await page.locator('#panel [value=data]').check();
     await page.locator('[data-media="text/csv"]').first().click();
     await page.locator('#panel [role=status]', {hasText: 'The service cannot be reached.'}).waitFor();
     await then(page, () => page.locator('#again').click());

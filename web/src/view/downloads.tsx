@@ -1,32 +1,15 @@
-import {useState} from 'preact/hooks';
+import {useEffect, useLayoutEffect, useRef, useState} from 'preact/hooks';
+import {listed, type Listed} from '../catalogue';
 import {save} from '../dom';
+import {groupsOf, known, purposeNames, purposesOf, queryOf, remember, remembered, type Option, type Purpose, type Values} from '../files';
+import {said} from '../hint';
 import type {Row} from '../json';
 import {headed} from '../key';
 import {endpointName} from '../names';
 import type {Format} from '../schema';
-import {away, path, type Problem} from '../service';
-import {choice, label, plain, unit} from '../words';
-
-type Option = Format['options'][number];
-type Values = Record<string, string>;
-
-const endings: Record<string, [name: string, ending: string]> = {
-  'application/json': ['JSON', 'json'],
-  'application/cbor': ['CBOR', 'cbor'],
-  'text/csv': ['CSV', 'csv'],
-  'image/svg+xml': ['SVG', 'svg'],
-  'image/vnd.dxf': ['DXF', 'dxf'],
-  'model/gltf-binary': ['glTF (3D)', 'glb'],
-  'model/stl': ['STL (3D)', 'stl'],
-  'model/step': ['STEP (CAD)', 'step'],
-  'text/x-gcode': ['G-code', 'ngc'],
-  'text/x-iec61131-st': ['IEC 61131-3 ST', 'st'],
-  'text/html': ['HTML', 'html'],
-  'application/pdf': ['PDF', 'pdf'],
-  'application/zip': ['Shop packet (zip)', 'zip'],
-  'application/x-ndjson': ['Lines (NDJSON)', 'ndjson'],
-};
-const known = (media: string): [string, string] => endings[media] ?? (/dstv|nc1/.test(media) ? ['DSTV', 'nc1'] : [media, 'txt']);
+import {away, path, type Answer, type Problem} from '../service';
+import {choice, plain, withUnit} from '../words';
+import {FileOption} from './file_option';
 
 /** By the order of the reference and the part that is cut, else by the job's own name; then the drawing and the beginning of the input's hash. */
 function fileName(name: string, body: Row, view: string | undefined, hash: string | null): string {
@@ -35,19 +18,6 @@ function fileName(name: string, body: Row, view: string | undefined, hash: strin
   const words = [reference['order'], part].filter((word): word is string => typeof word === 'string');
   const parts = [...(words.length ? words : [name]), view ?? '', hash?.slice(0, 8) ?? ''].filter(Boolean);
   return parts.join('-').replace(/[\\/:*?"<>|\s]+/g, '_');
-}
-
-/** Returns the options for a format; `apart` are those of its own drawings. */
-function queryOf({options}: Format, view: string | undefined, given: Values): URLSearchParams {
-  const query = new URLSearchParams(view ? {view} : {});
-  const files = options.some(({name}) => name === 'files') && given['files']?.split(',');
-  for (const {name} of options) {
-    const value = given[name];
-    const apart = /^(mirror|paper)$/.test(name) && view !== 'template'; // drawings of other views refuse it
-    // A packet's other options are its programs'.
-    if (value && !apart && (!files || name === 'files' || files.includes('gcode'))) query.set(name, value);
-  }
-  return query;
 }
 
 /** The whole of a reply; `tell` hears which share of it has come. */
@@ -65,85 +35,71 @@ async function received(reply: Response, tell: (share: number) => void): Promise
   return new Blob(pieces, {type: reply.headers.get('Content-Type') ?? ''});
 }
 
-/**
- * Returns the initial value of an option. A speed has no default; an initial one spares a refusal.
- */
+/** What an option begins with. A speed has no default; one to begin with spares a refusal. */
 const beginning = ({name, schema}: Option): string => (schema.items ? ((schema.default ?? []) as string[]).join(',') : name === 'speed_mm_min' ? '600' : '');
 
-interface Asked {
-  option: Option;
-  users: string;
-  value: string;
-  change(value: string): void;
-}
-
-/** An option that is a list of choices: a box to tick for each. */
-function ListField({option: {name, description, schema}, users, value, change}: Asked) {
-  const offered = (schema.items as {enum: string[]}).enum;
-  const chosen = new Set(value.split(','));
-  const tick = (each: string) => change(offered.filter((other) => chosen.has(other) !== (other === each)).join(','));
-  return (
-    <fieldset class="field ticks" title={plain(description)}>
-      <legend class="name">{`${label(name, 'download')} (${users})`}</legend>
-      {offered.map((each) => (
-        <label key={each} class="tick">
-          <input type="checkbox" value={each} data-option={name} checked={chosen.has(each)} onChange={() => tick(each)} />
-          {choice(each)}
-        </label>
-      ))}
-    </fieldset>
+/** The options that a problem names, each with its complaint. */
+const complaintsOf = ({errors = []}: Problem): Map<string, string> =>
+  new Map(
+    errors.flatMap((issue) =>
+      issue.pointer.startsWith('?') ? [[issue.pointer.slice(1), said({...issue, hint: issue.hint.replace(/^[a-z]+: /, '')})] as [string, string]] : [],
+    ),
   );
+
+/** What the service lists for an option. */
+function choicesOf(name: string, lists: Listed | undefined, given: Values, answer: Answer): [string, string][] | undefined {
+  const tabled = lists?.machines.filter(({process}) => process) ?? [];
+  if (name === 'machine') return tabled.map((each) => [each.name, choice(each.name)]);
+  if (name === 'material') {
+    const rows = tabled.find((each) => each.name === given['machine'])?.process?.rows ?? [];
+    const most = new Map<string, number>();
+    for (const {material, metal_max_mm} of rows) most.set(material, Math.max(metal_max_mm, most.get(material) ?? 0));
+    return [...most].map(([material, upTo]) => [material, `${material}, up to ${withUnit(upTo, 'mm')}`]);
+  }
+  if (name === 'post') return lists?.posts.map((each) => [each.name, each.post.what]) ?? [];
+  if (name === 'acknowledge')
+    return [...new Set(answer.warnings.filter(({severity}) => severity === 'cut').map(({code}) => code))].map((code) => [code, choice(code)]);
+  return undefined;
 }
 
-function OptionField(asked: Asked) {
-  const {option, users, value, change} = asked;
-  const {name, description, schema} = option;
-  if (schema.items) return <ListField {...asked} />;
-  const choices = schema.enum ?? (schema.type === 'boolean' ? ['false', 'true'] : undefined);
-  const shared = {'aria-label': `${label(name, 'download')}, for ${users}`, 'data-option': name, value};
-  return (
-    <label class="field" title={plain(description)}>
-      <span class="name">{`${label(name, 'download')} (${users})`}</span>
-      <span class="box">
-        {choices ? (
-          <select {...shared} onChange={(event) => change(event.currentTarget.value)}>
-            <option value="">{choice(schema.default ?? '')} (default)</option>
-            {choices.map((each) => (
-              <option key={String(each)} value={String(each)}>
-                {choice(each)}
-              </option>
-            ))}
-          </select>
-        ) : (
-          <input
-            type="text"
-            inputMode="decimal"
-            placeholder={String(schema.default ?? '')}
-            {...shared}
-            onInput={(event) => change(event.currentTarget.value)}
-          />
-        )}
-        {unit(name) && <span class="unit">{unit(name)}</span>}
-      </span>
-    </label>
-  );
+interface Given {
+  endpoint: string;
+  name: string;
+  body: Row;
+  formats: Format[];
+  answer: Answer;
 }
 
-/**
- * A button for every format that the contract offers here, and a field for each of its options. The
- * file is the service's answer.
- */
-export function Downloads({endpoint, name, body, formats}: {endpoint: string; name: string; body: Row; formats: Format[]}) {
-  const options = [...new Map(formats.flatMap((format) => format.options).map((option) => [option.name, option])).values()];
-  const [given, give] = useState<Values>(() => Object.fromEntries(options.map((option) => [option.name, beginning(option)])));
+/** The files of an answer, by what they are for: the options of that purpose, and a button for every format and drawing. The file is the service's. */
+export function Downloads({endpoint, name, body, formats, answer}: Given) {
+  const offered = purposesOf(formats);
+  const options = formats.flatMap((format) => format.options);
+  const [given, give] = useState<Values>(() => ({...Object.fromEntries(options.map((option) => [option.name, beginning(option)])), ...remembered()}));
+  const [lists, list] = useState<Listed | undefined>(undefined);
+  const [complaints, complain] = useState<ReadonlyMap<string, string>>(new Map());
   const [status, say] = useState('');
   const [coming, come] = useState<number | null | undefined>(undefined); // a share, unknown, nothing
+  const root = useRef<HTMLElement>(null);
+  const purpose = offered.find((each) => each === given['purpose']) ?? (offered[0] as Purpose);
+  useEffect(() => {
+    if (options.some((option) => option.name === 'machine')) void listed().then(list, () => {});
+  }, []);
+  useLayoutEffect(() => {
+    if (complaints.size) root.current?.querySelector<HTMLElement>('[aria-invalid=true]')?.focus();
+  }, [complaints]);
+  const change = (key: string, value: string) => {
+    const next = {...given, [key]: value, ...(key === 'machine' ? {material: ''} : {})};
+    if (complaints.has(key)) complain(new Map([...complaints].filter(([other]) => other !== key)));
+    give(next);
+    remember(next);
+  };
   const fetchFile = async (format: Format, view?: string) => {
     const {media} = format;
     const [title, ending] = known(media);
     const query = queryOf(format, view, given);
     say('');
-    come(null); // not reported while it is computed
+    complain(new Map());
+    come(null); // not to be told while it is computed
     const reply = await fetch(`${path(endpoint)}${query.size ? `?${query}` : ''}`, {
       method: 'POST',
       body: JSON.stringify(body),
@@ -152,39 +108,57 @@ export function Downloads({endpoint, name, body, formats}: {endpoint: string; na
     if (!reply) say(`${title}: ${away.title}`);
     else if (!reply.ok) {
       const problem = (await reply.json().catch(() => ({title: `status ${reply.status}`}))) as Problem;
-      say(`${title}: ${plain(`${problem.title} ${problem.detail ?? ''}`)}`);
+      const found = complaintsOf(problem);
+      complain(found);
+      say(
+        found.size
+          ? `${title}: ${found.size === 1 ? 'one field is' : `${found.size} fields are`} marked.`
+          : `${title}: ${plain(`${problem.title} ${problem.detail ?? ''}`)}`,
+      );
     } else save(`${fileName(name, body, view, reply.headers.get('Tubecut-Input-Sha256'))}.${ending}`, await received(reply, come));
     come(undefined);
   };
-  const users = (option: Option) =>
-    formats
-      .filter((format) => format.options.some((each) => each.name === option.name))
-      .map(({media}) => known(media)[0])
-      .join(', ');
   return (
-    <section class="block">
-      <h3>Download: {endpointName(endpoint)}</h3>
-      {options.length > 0 && (
-        <div class="options">
-          {options.map((option) => (
-            <OptionField
-              key={option.name}
-              option={option}
-              users={users(option)}
-              value={given[option.name] ?? ''}
-              change={(value) => give((was) => ({...was, [option.name]: value}))}
-            />
+    <section class="block" ref={root}>
+      <h3>Files: {endpointName(endpoint)}</h3>
+      {offered.length > 1 && (
+        <fieldset class="purposes">
+          <legend class="offscreen">What the files are for</legend>
+          {offered.map((each) => (
+            <label key={each}>
+              <input type="radio" name="purpose" value={each} checked={each === purpose} onChange={() => change('purpose', each)} />
+              {purposeNames[each]}
+            </label>
           ))}
-        </div>
+        </fieldset>
       )}
+      {groupsOf(formats, purpose, given, new Set(complaints.keys())).map(([title, shown]) => (
+        <fieldset class="asked" key={title}>
+          <legend>{title}</legend>
+          <div class="options">
+            {shown.map((option) => (
+              <FileOption
+                key={option.name}
+                option={option}
+                values={given}
+                listed={choicesOf(option.name, lists, given, answer)}
+                complaint={complaints.get(option.name)}
+                change={(value) => change(option.name, value)}
+              />
+            ))}
+          </div>
+        </fieldset>
+      ))}
       <div class="offers">
-        {formats.flatMap((format) =>
-          (format.views.length ? format.views : [undefined]).map((view) => (
-            <button type="button" key={`${format.media} ${view}`} data-media={format.media} data-view={view} onClick={() => void fetchFile(format, view)}>
-              {view ? `${known(format.media)[0]}: ${choice(view)}` : known(format.media)[0]}
-            </button>
-          )),
-        )}
+        {formats
+          .filter((format) => known(format.media)[2] === purpose)
+          .flatMap((format) =>
+            (format.views.length ? format.views : [undefined]).map((view) => (
+              <button type="button" key={`${format.media} ${view}`} data-media={format.media} data-view={view} onClick={() => void fetchFile(format, view)}>
+                {view ? `${known(format.media)[0]}: ${choice(view)}` : known(format.media)[0]}
+              </button>
+            )),
+          )}
       </div>
       <progress aria-label="Download" hidden={coming === undefined} {...(typeof coming === 'number' ? {value: coming} : {})} />
       <p class="soft" role="status">

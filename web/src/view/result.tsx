@@ -129,7 +129,16 @@ function Panel({tab}: {tab: string}) {
     return <p class="soft">{reply?.problem?.code === away.code ? 'Nothing yet: the service did not answer.' : 'Nothing yet: the request was refused.'}</p>;
   if (tab === 'table') return <Columns answer={answer} />;
   if (tab === 'downloads')
-    return <Downloads key={endpoint} endpoint={endpoint} name={console.example.value ?? endpoint} body={body} formats={contract.formats(path(endpoint))} />;
+    return (
+      <Downloads
+        key={endpoint}
+        endpoint={endpoint}
+        name={console.example.value ?? endpoint}
+        body={body}
+        formats={contract.formats(path(endpoint))}
+        answer={answer}
+      />
+    );
   if (tab === 'motion')
     return (
       <Motion
