@@ -12,6 +12,7 @@ import {pictured} from './pictures';
 import {contextOf, without, type Context} from './pictures/context';
 import * as preset from './preset';
 import type {Contract} from './schema';
+import type {Program} from './program';
 import {ask, Latest, path, type Answer, type Endpoint, type Example, type Machine, type Reply, type Tube} from './service';
 
 const firstJob = {endpoint: 'bevel-tables', example: 'source-000-table-1'};
@@ -38,6 +39,7 @@ export class Console {
   readonly reply = signal<Reply | undefined>(undefined);
   readonly answer = signal<Answer | undefined>(undefined);
   readonly picture = signal<Picture | undefined>(undefined);
+  readonly program = signal<Program | undefined>(undefined); // previewed, of the request as it is
   readonly said = signal(''); // summary of the picture, for the verdict
   readonly trouble = signal(''); // error of the drawing
   readonly leads = signal<Lead[]>([]);
@@ -194,6 +196,7 @@ export class Console {
 
   compute(): void {
     const job = this.job.value;
+    this.program.value = undefined;
     this.latest.run(async (signal) => {
       if (job !== this.job.value) return;
       const endpoint = this.endpoint.value;

@@ -66,6 +66,8 @@ export interface Played {
   link: string;
   seconds: number[];
   events: {at: number; text: string}[];
+  /** The time by its kinds: from and to in seconds. */
+  segments?: {from: number; to: number; tone: string; text: string}[];
 }
 
 export interface Figure {
@@ -199,7 +201,7 @@ export interface Ribbon {
 }
 /** The tool at every point of the cursor: a torch along a line of the wall, or a cone. */
 export type Tool =
-  | {kind: 'torch'; inner: Vector[]; outer: Vector[]; size: number}
+  | {kind: 'torch'; inner: Vector[]; outer: Vector[]; size: number; turn?: number[]} // `turn`: the angle of the tube that is under the torch, degrees
   | {kind: 'cone'; tip: number; back: number; length: number; poses: {tip: Vector; axis: Vector}[]; before?: {tip: Vector; axis: Vector}[]}; // radii at the face and at the spindle's end
 
 export interface Solid {

@@ -218,6 +218,8 @@ export class Stage {
     const tube = tubes[0];
     const poses = tool?.kind === 'cone' ? (this.before && tool.before) || tool.poses : [];
     this.cone?.put(index === null ? undefined : poses[index % poses.length]);
+    const turns = tool?.kind === 'torch' ? tool.turn : undefined;
+    this.content.rotation.z = index === null || !turns ? 0 : (-(turns[index % turns.length] ?? 0) * Math.PI) / 180;
     if (index !== null && tool?.kind === 'torch')
       this.beam.aim(tool.inner[index % tool.inner.length] as Vector, tool.outer[index % tool.outer.length] as Vector, tool.size);
     else if (index === null || !tube || tubes.length !== 1) this.beam.visible = false;

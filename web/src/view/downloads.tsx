@@ -1,3 +1,4 @@
+import type {Signal} from '@preact/signals';
 import {useEffect, useLayoutEffect, useRef, useState} from 'preact/hooks';
 import {listed, type Listed} from '../catalogue';
 import {save} from '../dom';
@@ -6,10 +7,12 @@ import {said} from '../hint';
 import type {Row} from '../json';
 import {headed} from '../key';
 import {endpointName} from '../names';
+import {parseProgram, type Program} from '../program';
 import type {Format} from '../schema';
 import {away, path, type Answer, type Problem} from '../service';
 import {choice, plain, withUnit} from '../words';
 import {FileOption} from './file_option';
+import {ProgramPreview} from './preview';
 
 /** By the order of the reference and the part that is cut, else by the job's own name; then the drawing and the beginning of the input's hash. */
 function fileName(name: string, body: Row, view: string | undefined, hash: string | null): string {
@@ -68,10 +71,12 @@ interface Given {
   body: Row;
   formats: Format[];
   answer: Answer;
+  /** The program that is previewed here and played in the picture. */
+  program: Signal<Program | undefined>;
 }
 
 /** The files of an answer, by what they are for: the options of that purpose, and a button for every format and drawing. The file is the service's. */
-export function Downloads({endpoint, name, body, formats, answer}: Given) {
+export function Downloads({endpoint, name, body, formats, answer, program}: Given) {
   const offered = purposesOf(formats);
   const options = formats.flatMap((format) => format.options);
   const [given, give] = useState<Values>(() => ({...Object.fromEntries(options.map((option) => [option.name, beginning(option)])), ...remembered()}));
@@ -93,31 +98,41 @@ export function Downloads({endpoint, name, body, formats, answer}: Given) {
     give(next);
     remember(next);
   };
-  const fetchFile = async (format: Format, view?: string) => {
-    const {media} = format;
-    const [title, ending] = known(media);
+  /** The file of a format. A refusal marks the options that it names. */
+  const requested = async (format: Format, view?: string): Promise<Response | undefined> => {
+    const title = known(format.media)[0];
     const query = queryOf(format, view, given);
     say('');
     complain(new Map());
-    come(null); // not to be told while it is computed
+    come(null); // unknown while it is computed
     const reply = await fetch(`${path(endpoint)}${query.size ? `?${query}` : ''}`, {
       method: 'POST',
       body: JSON.stringify(body),
-      headers: headed({'Content-Type': 'application/json', Accept: media}),
+      headers: headed({'Content-Type': 'application/json', Accept: format.media}),
     }).catch(() => undefined);
-    if (!reply) say(`${title}: ${away.title}`);
-    else if (!reply.ok) {
-      const problem = (await reply.json().catch(() => ({title: `status ${reply.status}`}))) as Problem;
-      const found = complaintsOf(problem);
-      complain(found);
-      say(
-        found.size
-          ? `${title}: ${found.size === 1 ? 'one field is' : `${found.size} fields are`} marked.`
-          : `${title}: ${plain(`${problem.title} ${problem.detail ?? ''}`)}`,
-      );
-    } else save(`${fileName(name, body, view, reply.headers.get('Tubecut-Input-Sha256'))}.${ending}`, await received(reply, come));
+    if (reply?.ok) return reply;
+    come(undefined);
+    const problem = reply ? ((await reply.json().catch(() => ({title: `status ${reply.status}`}))) as Problem) : away;
+    const found = complaintsOf(problem);
+    complain(found);
+    say(
+      `${title}: ${found.size === 1 ? 'one field is marked.' : found.size ? `${found.size} fields are marked.` : reply ? plain(`${problem.title} ${problem.detail ?? ''}`) : away.title}`,
+    );
+    return undefined;
+  };
+  const fetchFile = async (format: Format, view?: string) => {
+    const reply = await requested(format, view);
+    if (!reply) return;
+    save(`${fileName(name, body, view, reply.headers.get('Tubecut-Input-Sha256'))}.${known(format.media)[1]}`, await received(reply, come));
     come(undefined);
   };
+  const preview = async (format: Format) => {
+    const reply = await requested(format);
+    if (!reply) return;
+    program.value = parseProgram(await reply.text());
+    come(undefined);
+  };
+  const shownProgram = formats.find(({media}) => media === 'text/x-gcode' && purpose === 'program');
   return (
     <section class="block" ref={root}>
       <h3>Files: {endpointName(endpoint)}</h3>
@@ -159,11 +174,17 @@ export function Downloads({endpoint, name, body, formats, answer}: Given) {
               </button>
             )),
           )}
+        {shownProgram && (
+          <button type="button" id="preview" title="The lines and the time; the picture plays the program" onClick={() => void preview(shownProgram)}>
+            Preview
+          </button>
+        )}
       </div>
       <progress aria-label="Download" hidden={coming === undefined} {...(typeof coming === 'number' ? {value: coming} : {})} />
       <p class="soft" role="status">
         {status}
       </p>
+      {purpose === 'program' && program.value && <ProgramPreview program={program.value} />}
     </section>
   );
 }

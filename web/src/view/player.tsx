@@ -8,7 +8,7 @@ const longest = 20; // s that a whole schedule plays for; a shorter one in its o
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
 
 /** A time axis to play and to scrub: it moves the cursor of its link, and with it every view. Where motion is unwanted it steps from event to event. */
-export function Player({given: {link, seconds, events}}: {given: Played}) {
+export function Player({given: {link, seconds, events, segments}}: {given: Played}) {
   const running = useRef(0);
   const [playing, tell] = useState(false);
   const [, look] = useState(calm.matches);
@@ -60,6 +60,23 @@ export function Player({given: {link, seconds, events}}: {given: Played}) {
         title="The time in the schedule: the cursor and the tool follow."
         onInput={({currentTarget}) => point(link, Number(currentTarget.value))}
       />
+      {segments && (
+        <div class="timeline" role="img" aria-label={`Time line: ${events.map((each) => each.text).join(', ')}`}>
+          {segments.map(({from, to, tone, text}, i) => (
+            <i
+              key={i}
+              title={text}
+              style={{flexGrow: to - from, background: `var(--${tone})`}}
+              onClick={() =>
+                point(
+                  link,
+                  seconds.findIndex((each) => each >= from),
+                )
+              }
+            />
+          ))}
+        </div>
+      )}
       <output class="soft">{said(`${now.toFixed(1)} of ${whole.toFixed(1)} s`, ' · ')}</output>
     </>
   );

@@ -1,6 +1,8 @@
+import {useMemo} from 'preact/hooks';
 import type {Console} from '../console';
 import {endpointName} from '../names';
 import {without} from '../pictures/context';
+import {programmed} from '../pictures/programmed';
 import {away, path} from '../service';
 import {TabBar} from './controls';
 import {Downloads} from './downloads';
@@ -64,7 +66,8 @@ function Onward() {
 
 function Pictures() {
   const console = useConsole();
-  const picture = console.picture.value;
+  const [drawn, program] = [console.picture.value, console.program.value];
+  const picture = useMemo(() => (drawn && program ? programmed(drawn, program) : drawn), [drawn, program]);
   const {solid, charts = [], figures = [], inspected, played, section} = picture ?? {};
   const alone = picture && (!solid || !(charts.length || inspected));
   const ways = {
@@ -137,6 +140,7 @@ function Panel({tab}: {tab: string}) {
         body={body}
         formats={contract.formats(path(endpoint))}
         answer={answer}
+        program={console.program}
       />
     );
   if (tab === 'motion')
