@@ -33,7 +33,11 @@ export async function part(_: Row, answer: Answer, context: Context): Promise<Pi
     solid: solidOf(request, result, {outer, wall}, context.sizes),
     charts: [...charts, ...holes.flatMap((hole, i) => holeCharts(hole, i, holes.length, outer / 2))],
     figures: [...webFigures(result), ...figures(result['lengths'] as Row, Object.keys(result['lengths'] as Row))],
-    said: said(result, holes.length, rowsOf(result['cutouts']).reduce((sum, group) => sum + rowsOf(group['instances']).length, 0)),
+    said: said(
+      result,
+      holes.length,
+      rowsOf(result['cutouts']).reduce((sum, group) => sum + rowsOf(group['instances']).length, 0),
+    ),
     tables: ['check_dimensions', 'sequence'].filter((key) => rowsOf(result[key]).length).map((key) => table(key, rowsOf(result[key]))),
   };
 }
