@@ -100,6 +100,7 @@ export function checkHole(scope: Scope, hole: Hole, result: Body): void {
     const beside = square ? norm(cross(wall, unit(across(O, [0, 0, 1])))) + norm(cross(D, unit(across(TO, [0, 0, 1])))) : norm(cross(wall, D)); // square to the tube each, else parallel
     scope.most('hole_wall_parallel', beside * norm(sub(O, I)), 2 * fine, 'mm', where);
     scope.most('hole_kerf', hole.kerf / 2 - lineDistance(P, TO, D), 1e-7, 'mm', where);
+    if (square) scope.same('hole_groove', at('groove_deg'), at('dihedral_deg') - 90, 3e-9, 'deg', where); // its wall is square to the chord where it touches
     const m = unit(across(sub(P, hole.q), hole.d));
     if (!square) {
       scope.same('hole_on_branch', lineDistance(P, hole.q, hole.d), rho, fine, 'mm', where);
@@ -125,9 +126,7 @@ export function checkHole(scope: Scope, hole: Hole, result: Body): void {
     const own = Math.abs(integral(speed, a * RAD, (a + wrapped(b - a)) * RAD, 1e-11)); // the far hole runs against the branch's phase
     scope.same('hole_length', stated, own, 1e-7 + 1e-7 * own, 'mm', where);
   }
-  const open = square ? ['dihedral_deg', 'groove_deg'] : [];
-  const closed = Object.keys(points).filter((name) => !open.includes(name));
-  scope.covers('length_mm', ...closed.map((name) => `points/${name}`));
+  scope.covers('length_mm', ...Object.keys(points).map((name) => `points/${name}`));
   checkFitUp(scope, hole, result, points);
   checkBeam(scope, hole, result, points);
 }
