@@ -1,5 +1,5 @@
-// What jobs take of memory, by endpoint and format: measured on the costliest valid requests, which
-// server_job_memory_test runs, and rounded up.
+// What jobs take of memory, by endpoint and format: measured on the most expensive valid requests,
+// which server_job_memory_test runs, and rounded up.
 
 #include "api/memory.hpp"
 

@@ -185,7 +185,7 @@ void check_combination(const bevel::TableSpec& s, Reader& in) {
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "dihedral",
               .limit = Json{"weld_side"},
-              .hint = "inside and as_published require root_surface outer and contact none"},
+              .hint = "inside and as_published require root_surface outer and no contact"},
              in.find("dihedral"));
   const bool goes = s.contact == Contact::none || (s.contact == Contact::outer) == outer;
   if (goes) return;

@@ -46,6 +46,18 @@ class CheckSizes(unittest.TestCase):
             found, _ = check_sizes.problems(tree(folder, {"core/x.cpp": 1}), {"core/y.cpp": 500})
             self.assertEqual(found, ["core/y.cpp: is on the list and no file"])
 
+    def test_a_folder_has_a_limit(self):
+        for folder, files, status in (("core/x", 40, 0), ("core/x", 41, 1), ("tests/x", 41, 0)):
+            with self.subTest(folder=folder, files=files):
+                got, said = run_on_tree({f"{folder}/f{i}.cpp": "\n" for i in range(files)}, "check_sizes", "ROOT")
+                self.assertEqual(got, status, said)
+
+    def test_an_exception_for_a_folder_goes_when_it_is_not_needed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = tree(folder, {f"core/x/f{i}.cpp": 1 for i in range(41)})
+            self.assertEqual(check_sizes.full_folders(root, {"core/x": 41}), [])
+            self.assertEqual(len(check_sizes.full_folders(root, {"core/x": 41, "core/y": 45})), 1)
+
     def test_an_empty_tree_fails(self):
         self.assertEqual(run_on_tree({}, "check_sizes", "ROOT")[0], 1)
 

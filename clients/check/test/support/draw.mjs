@@ -81,7 +81,7 @@ const drawers = {
 
 export const endpoints = Object.keys(drawers);
 
-/** {endpoint, request} without end, of the endpoints by turns. */
+/** {endpoint, request} without end, alternating between the endpoints. */
 export function* requests(seed, of = endpoints) {
   const r = random(seed);
   for (let i = 0; ; i += 1) {
