@@ -6,6 +6,8 @@ export interface Place {
   endpoint: string;
   example?: string;
   body?: Row;
+  /** Of a job that is kept in this browser, because it is too long for a link. */
+  draft?: string;
   view: Record<string, string>;
 }
 
@@ -23,21 +25,23 @@ async function through(bytes: Uint8Array, stream: GenericTransformStream): Promi
 
 const largest = 24000; // characters; longer addresses do not survive mail and chat
 const mark = '~'; // marks a job in full, as opposed to the name of an example
+const local = '@'; // marks the id of a draft
 const sealed = '.'; // deflated with a checksum (zlib): without one, another character in the middle can be another job
 
-/** If a job is too long for an address, only the mark remains. */
-export async function written(place: Place): Promise<string> {
-  const view = new URLSearchParams(place.view).toString();
+/** If a job is too long for an address, the address names its draft. */
+export async function written(place: Place & {draft: string}): Promise<string> {
+  const search = new URLSearchParams(place.view).toString();
+  const view = search ? `?${search}` : '';
   let job = place.example ?? '';
   if (place.body) {
     const bytes = new TextEncoder().encode(JSON.stringify(place.body));
     job = mark + sealed + (bytes.length > 20 * largest ? '' : toText(await through(bytes, new CompressionStream('deflate'))));
-    if (job.length > largest || job.length === 2) return `#/${place.endpoint}/${mark}`;
+    if (job.length > largest || job.length === 2) return `#/${place.endpoint}/${local}${place.draft}${view}`;
   }
-  return `#/${place.endpoint}/${job}${view ? `?${view}` : ''}`;
+  return `#/${place.endpoint}/${job}${view}`;
 }
 
-export const tooLong = (hash: string) => hash.endsWith(`/${mark}`);
+export const tooLong = (hash: string) => hash.includes(`/${local}`);
 
 /**
  * Returns the content of a link, or the reason why it cannot be trusted. Null if the hash is not a
@@ -50,6 +54,7 @@ export async function read(hash: string): Promise<Place | {damage: string} | nul
   const place: Place = {endpoint: match[1] as string, view: Object.fromEntries(new URLSearchParams(match[3] ?? ''))};
   try {
     const job = decodeURIComponent(match[2] ?? '');
+    if (job.startsWith(local)) return {...place, draft: job.slice(1)};
     if (job === mark) return {damage: 'The job was too long for a link: its request can be copied as JSON instead.'};
     if (job.startsWith(mark)) return {...place, body: await unpacked(job.slice(1))};
     return job ? {...place, example: job} : place;

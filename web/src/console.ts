@@ -1,6 +1,7 @@
 import {batch, signal} from '@preact/signals';
 import * as address from './address';
-import {byId} from './dom';
+import {byId, save} from './dom';
+import {draftOf, keep, newId} from './drafts';
 import {Form} from './form';
 import {clone, type Row} from './json';
 import {keyed} from './key';
@@ -11,9 +12,11 @@ import type {Picture} from './picture';
 import {pictured} from './pictures';
 import {contextOf, without, type Context} from './pictures/context';
 import * as preset from './preset';
+import {jobOf} from './recognise';
 import type {Contract} from './schema';
 import type {Program} from './program';
-import {ask, Latest, path, type Answer, type Endpoint, type Example, type Machine, type Reply, type Tube} from './service';
+import {ask, gone, Latest, path, type Answer, type Endpoint, type Example, type Machine, type Reply, type Tube} from './service';
+import {Watch} from './watch';
 
 const firstJob = {endpoint: 'bevel-tables', example: 'source-000-table-1'};
 
@@ -36,6 +39,7 @@ export class Console {
   readonly changes = signal(0); // of the job
   readonly formShown = signal(false);
   readonly lost = signal<string | null>(null); // why the link in the address cannot be read
+  readonly lostAs = signal('damaged');
   readonly reply = signal<Reply | undefined>(undefined);
   readonly answer = signal<Answer | undefined>(undefined);
   readonly picture = signal<Picture | undefined>(undefined);
@@ -50,6 +54,8 @@ export class Console {
   readonly context: Context;
   readonly schedules: string[];
   private readonly latest = new Latest();
+  private readonly watch = new Watch();
+  private draft = newId();
   private taken: Row[] | undefined; // out of the request, when the preset was pressed
   private askedJob = 0;
   private drawnJob = 0; // the one that the pictures are of
@@ -108,7 +114,11 @@ export class Console {
     const place = await address.read(hash);
     if (!place && hash && this.job.value) return this.remember(); // a place in this page
     if (place && 'damage' in place) return this.lose(place.damage);
-    const {endpoint, example, body, view} = place ?? {...firstJob, body: undefined, view: {} as Record<string, string>};
+    const draft = place?.draft ?? (history.state as {draft?: string} | null)?.draft;
+    const kept = place?.draft ? await draftOf(place.draft) : undefined;
+    if (place?.draft && !kept)
+      return this.lose('This job is kept in the browser that it was made in. Save it there as a file, and open the file here.', 'not here');
+    const {endpoint, example, body = kept?.body, view} = place ?? {...firstJob, body: undefined, view: {} as Record<string, string>};
     if (!this.endpoints.some((e) => e.id === endpoint)) return this.lose(`There is no page called "${endpoint}".`);
     if (example && !this.examples.some((e) => e.endpoint === endpoint && e.name === example))
       return this.lose(`${endpointName(endpoint)} has no example called "${example}".`);
@@ -116,7 +126,7 @@ export class Console {
       this.view.value = view['view'] === 'before' ? 'before' : 'after';
       this.partners.value = view['partners'] !== 'off';
       this.tab.value = view['tab'] ?? 'proof';
-      if (body) this.begin(endpoint, undefined, body, true);
+      if (body) this.begin(endpoint, undefined, body, true, draft);
       else this.open(endpoint, example);
       this.item.value = /^\d+$/.test(view['item'] ?? '') ? Number(view['item']) : null;
     });
@@ -124,10 +134,11 @@ export class Console {
   }
 
   /** Reports that a link cannot be read, and shows nothing of another job in its place. */
-  private lose(why: string): void {
+  private lose(why: string, what = 'damaged'): void {
     batch(() => {
       this.job.value += 1;
       this.lost.value = why;
+      this.lostAs.value = what;
       this.endpoint.value = '';
       this.example.value = this.reply.value = undefined;
       this.edited.value = false;
@@ -147,12 +158,14 @@ export class Console {
 
   /** The fewest fields that make a job, as the contract has them. */
   blank(): void {
-    this.begin(this.endpoint.value, undefined, {...(this.contract.make(this.schema ?? {}) as Row), ...usual[this.endpoint.value]}, true);
+    this.start(this.endpoint.value, {...(this.contract.make(this.schema ?? {}) as Row), ...usual[this.endpoint.value]});
     this.formShown.value = true;
     drawn(() => byId('form').querySelector<HTMLElement>('input, select')?.focus());
   }
 
-  begin(endpoint: string, example: string | undefined, body: Row, edited: boolean): void {
+  /** `draft`: of a job that has one; else it gets one with its first change. */
+  begin(endpoint: string, example: string | undefined, body: Row, edited: boolean, draft?: string): void {
+    this.draft = draft ?? newId();
     batch(() => {
       this.endpoint.value = endpoint;
       this.example.value = example;
@@ -166,6 +179,34 @@ export class Console {
     });
     document.title = `${endpointName(endpoint)} – tubecut`;
     this.compute();
+  }
+
+  /** The same job and answer in other units. */
+  refresh(): void {
+    this.form.refresh();
+    this.compute();
+  }
+
+  /** A job of one's own, which is kept from its beginning. */
+  start(endpoint: string, body: Row): void {
+    this.begin(endpoint, undefined, body, true);
+    this.keep();
+  }
+
+  private keep(): void {
+    keep({id: this.draft, endpoint: this.endpoint.value, body: this.body, changed: Date.now()});
+  }
+
+  /** The request as a file; it is opened again here, or sent to the service as it is. */
+  saveJob(name: string): void {
+    save(`${name}.json`, new Blob([JSON.stringify(this.body, null, 2)], {type: 'application/json'}));
+  }
+
+  /** A file with a request, or with an answer that has one in it. */
+  async openJob(file: File): Promise<void> {
+    const job = jobOf(await file.text(), this.contract, this.pages, this.endpoint.value);
+    if (job) this.start(job.endpoint, clone(job.body));
+    else this.trouble.value = `${file.name} is not a job: it must hold a request of this service as JSON.`;
   }
 
   /** Cuts square, or again as before. */
@@ -191,6 +232,7 @@ export class Console {
   private changed(): void {
     this.edited.value = true;
     this.changes.value += 1;
+    this.keep();
     this.compute();
   }
 
@@ -220,6 +262,8 @@ export class Console {
   /** An answer is drawn; a problem leaves the last pictures, faded, and marks its fields. */
   private take(reply: Reply, picture: Picture | Error | undefined): void {
     this.reply.value = reply;
+    if (gone(reply)) this.watch.begin(() => this.compute());
+    else this.watch.end();
     this.keyed.value = keyed();
     document.body.classList.toggle('stale', !reply.answer);
     this.form.complain(reply.problem?.errors ?? []);
@@ -287,7 +331,7 @@ export class Console {
     clearTimeout(this.writing);
     await this.writeHash();
     this.tab.value = 'proof';
-    this.begin(endpoint, undefined, clone(body), true);
+    this.start(endpoint, clone(body));
     byId('views').focus({preventScroll: true}); // the pressed button is gone
     scrollTo(0, 0);
   }
@@ -309,23 +353,25 @@ export class Console {
       ...(item === null ? {} : {item: String(item)}),
     };
     const was = location.hash;
-    const hash = await address.written({endpoint: this.endpoint.value, view, ...(this.edited.value || !example ? {body: this.body} : {example})});
+    const {draft} = this;
+    const hash = await address.written({endpoint: this.endpoint.value, view, draft, ...(this.edited.value || !example ? {body: this.body} : {example})});
     if (location.hash !== was) return; // somebody went elsewhere meanwhile
     const another = this.writtenJob !== job;
     this.written = hash;
     this.writtenJob = job;
-    if (location.hash === hash) return;
+    const state = this.edited.value ? {draft} : null;
+    if (location.hash === hash) return history.replaceState(state, '');
     const before = location.hash.split(/[~?]/)[0],
       now = hash.split(/[~?]/)[0];
     // Another job is a step to go back to; a change of this one is not.
-    history[another && before !== now ? 'pushState' : 'replaceState'](null, '', hash);
+    history[another && before !== now ? 'pushState' : 'replaceState'](state, '', hash);
   }
 
   async share(copied: (text: string) => Promise<boolean>): Promise<void> {
     await this.writeHash();
     const long = address.tooLong(location.hash);
     const done = !long && (await copied(location.href));
-    this.linked.value = long ? 'Too long for a link' : done ? 'Link copied' : 'Copy the address';
+    this.linked.value = long ? 'Too long: save the job' : done ? 'Link copied' : 'Copy the address';
     setTimeout(() => {
       this.linked.value = 'Copy link';
     }, 1500);

@@ -5,6 +5,7 @@ import {History} from './history';
 import {at, clone, put, sharing, type Json, type Row} from './json';
 import type {Contract, Schema} from './schema';
 import type {Issue} from './service';
+import {quantity} from './units';
 
 /** Names that the service lists, by the fields that they fill. */
 export type Choices = Record<string, string[]> & {machine: string[]; size: string[]};
@@ -78,6 +79,11 @@ export class Form {
     this.drawn.value = {...this.drawn.value, body: this.body, build};
     this.complaints.value = none;
     this.changed();
+  }
+
+  /** All fields anew, such as in another unit. */
+  refresh(): void {
+    this.drawn.value = {...this.drawn.value, body: this.body, build: this.drawn.value.build + 1};
   }
 
   /** Back to the state before, or on to the one after: all fields are made anew, because what was typed is in them alone. */
@@ -156,8 +162,8 @@ export function roomy(inputs: Iterable<Element>): void {
 }
 
 function step(input: HTMLInputElement, by: number): void {
-  const now = Number(input.value || input.placeholder);
-  if (!Number.isFinite(now)) return;
+  const now = quantity(input.value || input.placeholder, '');
+  if (now === undefined) return;
   input.value = String(Number((now + by).toFixed(6)));
   input.dispatchEvent(new Event('input', {bubbles: true}));
 }
@@ -185,19 +191,21 @@ export function scrub(event: PointerEvent): void {
   };
 }
 
-/** A number where one was typed; anything else goes to the service as it is, to be refused by name. */
-export function typed(text: string, textual: boolean): Json | undefined {
+/** A number where one was typed, in the unit of the wire; anything else goes to the service as it is, to be refused by name. */
+export function typed(text: string, textual: boolean, unit: string): Json | undefined {
   if (text === '') return undefined;
-  if (textual) return text;
-  const value = Number(text.replace(',', '.'));
-  return text.trim() !== '' && Number.isFinite(value) ? value : text;
+  return textual ? text : (quantity(text, unit) ?? text);
 }
 
-/** A list as it is typed: as JSON, or numbers separated by commas. */
-export function listed(text: string): Json | undefined {
+/** A list as it is typed: as JSON, or numbers separated by commas or semicolons. */
+export function listed(text: string, unit: string): Json | undefined {
   if (!text.trim()) return undefined;
+  if (!/^\s*[[{"]/.test(text)) {
+    const numbers = text.split(text.includes(';') ? ';' : /,\s*/).map((each) => quantity(each, unit));
+    if (numbers.every((each) => each !== undefined)) return numbers as number[];
+  }
   try {
-    return JSON.parse(/^\s*[[{"]/.test(text) ? text : `[${text}]`) as Json;
+    return JSON.parse(text) as Json;
   } catch {
     return text;
   }

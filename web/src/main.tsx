@@ -3,12 +3,14 @@ import {Console} from './console';
 import {byId} from './dom';
 import {KeyNeeded, tried} from './key';
 import {Contract} from './schema';
-import {fetched, type Endpoint, type Example, type Machine, type Tube} from './service';
+import {Away, fetched, type Endpoint, type Example, type Machine, type Tube} from './service';
 import {Shell} from './view/shell';
 import {Unlock} from './view/unlock';
 import {Silence} from './view/verdict';
+import {Watch} from './watch';
 
 const root = byId('page');
+const watch = new Watch();
 
 async function begin(): Promise<void> {
   try {
@@ -23,7 +25,11 @@ async function begin(): Promise<void> {
     render(<Shell console={page} />, root);
     await page.arrive(location.hash);
   } catch (failure) {
-    const again = () => void begin();
+    const again = () => {
+      watch.end();
+      void begin();
+    };
+    if (failure instanceof Away) watch.begin(again);
     const why = failure instanceof Error ? failure.message : String(failure);
     render(
       <Shell>

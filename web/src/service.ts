@@ -41,14 +41,22 @@ export const away: Problem = {
   code: 'unreachable',
   status: 0,
   title: 'The service cannot be reached.',
-  action: 'It may have been stopped, or the network is down. Your input is kept.',
+  action: 'It may have been stopped, or the network is down. Your input is kept, and is computed as soon as the service is back.',
 };
+
+/** Whether the service, or what is behind a proxy, is away. */
+export const gone = ({problem}: Reply) =>
+  problem !== undefined && (problem.code === away.code || (problem.code === 'unreadable_answer' && Number(problem.status) >= 500));
+
+/** The service did not answer. */
+export class Away extends Error {}
 
 export async function fetched<T>(address: string): Promise<T> {
   const reply = await fetch(address, {headers: headed()}).catch(() => {
-    throw new Error(away.title);
+    throw new Away(away.title);
   });
   if (reply.status === 401) throw new KeyNeeded(`${address} answered 401`);
+  if (reply.status >= 500) throw new Away(`${address} answered ${reply.status}`);
   if (!reply.ok) throw new Error(`${address} answered ${reply.status}`);
   return (await reply.json()) as T;
 }

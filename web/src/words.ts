@@ -1,6 +1,7 @@
 import words from 'virtual:words';
 import type {Words} from '../glossary/words';
 import {keys} from './json';
+import {shownUnit, toShown} from './units';
 
 // How values, names and sentences are written for people: numbers with their units, then words.
 
@@ -41,12 +42,29 @@ export const unit = (name: string): string => units.find(([ending]) => name.ends
 /** The service's own spelling of a unit, as in `verification`. */
 export const spelled = (text: string) => (text === 'mm3' ? 'mm³' : unit(`_${text}`) || (text === 'ratio' ? '' : text));
 
-const places: Record<string, number> = {mm: 2, '°': 1, '%': 1, ms: 1, µs: 0, µm: 2, kg: 2, 'mm/min': 0, 'm/min': 1, 'mm/s': 2, '1/h': 1};
+const places: Record<string, number> = {
+  in: 3,
+  'in/min': 1,
+  'in/s': 3,
+  mm: 2,
+  '°': 1,
+  '%': 1,
+  ms: 1,
+  µs: 0,
+  µm: 2,
+  kg: 2,
+  'mm/min': 0,
+  'm/min': 1,
+  'mm/s': 2,
+  '1/h': 1,
+};
 const most = 6; // significant digits that anybody is shown
 const rounding = 1e-9; // below it, a length or an angle is rounding error
 
-/** The one way that numbers are written for people: 0.01 mm, 0.1°, a time to a digit that means something; without the unit. */
-export function number(value: number, of = ''): string {
+/** The one way that numbers are written for people: 0.01 mm, 0.1°, a time to a digit that means something; without the unit. `unit` is one of the
+ *  wire; the number is in the unit that is shown. */
+export function number(given: number, unit = ''): string {
+  const [value, of] = [toShown(given, unit), shownUnit(unit)];
   if (!Number.isFinite(value)) return '–';
   if (Math.abs(value) < rounding) return '0';
   const size = Math.abs(value);
@@ -72,7 +90,7 @@ export function powers(value: number): string {
 export const residual = (value: number, of: string) => (value !== 0 && Math.abs(value) < rounding ? '< 0.001' : number(value, of));
 
 export const withUnit = (value: number, of: string) => beside(number(value, of), of);
-export const beside = (text: string, of: string) => `${text}${!of || of.startsWith('°') ? '' : ' '}${of}`;
+export const beside = (text: string, of: string) => `${text}${!of || of.startsWith('°') ? '' : ' '}${shownUnit(of)}`;
 
 /** Fractions are shown in per cent, volumes in cm³. */
 const scales: Record<string, number> = {'%': 100, 'cm³': 0.001};
@@ -107,7 +125,7 @@ export const hint = (term: Term) => (typeof term === 'string' ? undefined : term
 /** A field's name with its unit. */
 export function term(key: string, within = ''): Term {
   const mark = unit(key);
-  return {text: label(key, within) + (mark ? ` ${mark}` : ''), about: about(key, within)};
+  return {text: label(key, within) + (mark ? ` ${shownUnit(mark)}` : ''), about: about(key, within)};
 }
 
 /** A warning's code, or one of a field's choices. */
@@ -174,8 +192,8 @@ const worded = (said: string) =>
     .replace(/(?!\/v1\/)(?<![\w/])(?:\/[a-z_0-9]+)+\/[a-z_0-9]+/g, (pointer) => place(pointer))
     .replace(/\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+\b/g, (name) => words.fields[name]?.[0] ?? choice(name))
     .replace(/-?\d+\.\d+(?:e[-+]?\d+)?/g, (digits) => (digits.length > 7 ? number(Number(digits)) : digits))
-    .replace(/(\d+\.\d+) (deg|mm(?:\/min|\/s)?)(?![\w/²³])/g, (all, digits, of) =>
-      Number(digits) < 0.01 ? all : `${number(Number(digits), of === 'deg' ? '°' : of)} ${of}`,
+    .replace(/(\d+(?:\.\d+)?) (deg|mm(?:\/min|\/s)?)(?![\w/²³])/g, (all, digits, of) =>
+      Number(digits) < 0.01 ? all : beside(number(Number(digits), of === 'deg' ? '°' : of), of === 'deg' ? '°' : of),
     )
     .replace(/(\d+\.\d+)(?= to -?[\d.]+ deg\b)/g, (digits) => number(Number(digits), '°'))
     .replace(/(\d) deg\b/g, '$1°')

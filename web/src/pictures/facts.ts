@@ -1,6 +1,7 @@
 import {isRow, type Json, type Row} from '../json';
 import type {Figure, Picture, Table} from '../picture';
 import {column} from '../picture';
+import {shownUnit} from '../units';
 import {about, choice, label, measured, sentence, shown, type Term, unit} from '../words';
 
 /** A value of an answer as people read it, without its unit. */
@@ -31,7 +32,7 @@ export function facts(key: string, row: Row, title = sentence(label(key))): Tabl
     head: ['', '', ''],
     rows: Object.entries(row)
       .filter(([, v]) => typeof v !== 'object')
-      .map(([k, v]) => [{text: label(k, key), about: about(k, key)}, text(k, v), unit(k)]),
+      .map(([k, v]) => [{text: label(k, key), about: about(k, key)}, text(k, v), shownUnit(unit(k))]),
   };
 }
 

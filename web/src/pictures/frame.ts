@@ -1,6 +1,7 @@
 import {rowsOf, type Json, type Row} from '../json';
 import type {Assembly, Frame, HoledTube, Partner, Picture, Solid, Table, Vector} from '../picture';
 import type {Answer} from '../service';
+import {shownUnit} from '../units';
 import {choice, term, withUnit} from '../words';
 import type {Context} from './context';
 import {figures, plural, text} from './facts';
@@ -38,7 +39,7 @@ function cutList(cuts: Row[]): Table {
     id: 'cut_list',
     title: 'Cut list',
     names: true,
-    head: [...head, {text: 'size mm', about: 'Outer diameter × wall.'}, ...lengths.map((key) => term(key, 'cut_list')), term('verdict')],
+    head: [...head, {text: `size ${shownUnit('mm')}`, about: 'Outer diameter × wall.'}, ...lengths.map((key) => term(key, 'cut_list')), term('verdict')],
     rows: cuts.map((cut) => [
       {text: String(cut['part']), about: (cut['members'] as string[]).join(', ')},
       text('count', cut['count']),

@@ -1,6 +1,7 @@
 import {isRow, rowsOf, type Row} from '../json';
 import {column, type Chart, type CutTube, type Picture, type Played, type Series, type Solid, type Table, type Tool} from '../picture';
 import type {Answer} from '../service';
+import {shownUnit} from '../units';
 import {choice, label, measured, number, term, type Term, withUnit} from '../words';
 import {bevelTable, farEnd, joint} from './cut';
 import {without, type Context} from './context';
@@ -357,7 +358,7 @@ function cutsOf(result: Row, period: number): Table {
   const of = (i: number, kind: string) => [segments[i - 1], segments[i - 2]].find((s) => s?.['kind'] === kind && s['name'] === segments[i]?.['name']);
   return {
     title: 'Cuts in their order',
-    head: [term('cut'), 'from s', 'rapid s', 'pierce s', 'cut s', 'length mm'],
+    head: [term('cut'), 'from s', 'rapid s', 'pierce s', 'cut s', `length ${shownUnit('mm')}`],
     rows: segments.flatMap((s, i) =>
       s['kind'] === 'cut' || s['kind'] === 'mark'
         ? [

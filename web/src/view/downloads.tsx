@@ -15,7 +15,7 @@ import {FileOption} from './file_option';
 import {ProgramPreview} from './preview';
 
 /** By the order of the reference and the part that is cut, else by the job's own name; then the drawing and the beginning of the input's hash. */
-function fileName(name: string, body: Row, view: string | undefined, hash: string | null): string {
+export function fileName(name: string, body: Row, view: string | undefined, hash: string | null): string {
   const reference = (body['reference'] ?? {}) as Record<string, unknown>;
   const part = reference['part'] ?? body['member'];
   const words = [reference['order'], part].filter((word): word is string => typeof word === 'string');

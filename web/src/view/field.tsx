@@ -1,10 +1,11 @@
 import {useComputed} from '@preact/signals';
 import {createContext} from 'preact';
-import {useContext} from 'preact/hooks';
+import {useContext, useEffect, useRef} from 'preact/hooks';
 import {listed, nudge, scrub, typed, type Form} from '../form';
 import {called, hintOf, offered} from '../hint';
 import {at, isRow, type Json} from '../json';
 import type {Schema} from '../schema';
+import {entered, shownUnit} from '../units';
 import {choice, lastKey, sentence, unit} from '../words';
 import {Combo as Search} from './combo';
 
@@ -71,7 +72,7 @@ export function Field({schema, value, pointer, required = false}: Value & {requi
         <Input schema={schema} value={value} pointer={pointer} name={called(pointer)} />
         {mark && (
           <span class="unit" title="Drag to change" onPointerDown={scrub}>
-            {mark}
+            {shownUnit(mark)}
           </span>
         )}
       </span>
@@ -86,7 +87,7 @@ export function Input(given: Value & {name: string}) {
   const form = useForm();
   const shared = {
     'data-pointer': pointer,
-    'aria-label': [sentence(name), unit(lastKey(pointer))].filter(Boolean).join(', '),
+    'aria-label': [sentence(name), shownUnit(unit(lastKey(pointer)))].filter(Boolean).join(', '),
     ...useTold(pointer),
   };
   const key = lastKey(pointer);
@@ -101,13 +102,41 @@ export function Input(given: Value & {name: string}) {
   return <Text {...given} shared={shared} />;
 }
 
+const pause = 400; // ms after which what is typed is complete
+
+/**
+ * Writes typed text after a pause, or if the field is left, because half a number may be refused. A
+ * step or a drag is written at once.
+ */
+function useTyping(write: (text: string) => void) {
+  const due = useRef<{timer: number; text: string} | undefined>(undefined);
+  const latest = useRef(write);
+  latest.current = write;
+  const flush = () => {
+    const {timer, text} = due.current ?? {};
+    clearTimeout(timer);
+    due.current = undefined;
+    if (text !== undefined) latest.current(text);
+  };
+  useEffect(() => flush, []);
+  return {
+    onInput: (event: Event) => {
+      const text = (event.currentTarget as HTMLInputElement).value;
+      clearTimeout(due.current?.timer);
+      due.current = {timer: window.setTimeout(flush, pause), text};
+      if (!event.isTrusted) flush();
+    },
+    onBlur: flush,
+  };
+}
+
 /** Returns the value that applies if nothing is entered. */
 function useDefault({schema, pointer}: Value) {
   const form = useForm();
   return useComputed(() => {
     const echo = at(form.echo.value, pointer);
     const counts = echo === undefined || isRow(echo) ? schema.default : echo;
-    return counts === undefined ? '' : offered(counts);
+    return counts === undefined ? '' : offered(counts, unit(lastKey(pointer)));
   });
 }
 
@@ -122,6 +151,7 @@ function Text(given: Value & {shared: object}) {
   const {schema, value, pointer, shared} = given;
   const form = useForm();
   const textual = schema.type === 'string' && !schema.oneOf;
+  const mark = unit(lastKey(pointer));
   const placeholder = useDefault(given);
   return (
     <input
@@ -129,9 +159,9 @@ function Text(given: Value & {shared: object}) {
       inputMode={textual ? 'text' : 'decimal'}
       spellcheck={false}
       placeholder={placeholder}
-      value={String(value ?? '')}
+      value={typeof value === 'number' ? entered(value, mark) : String(value ?? '')}
       {...shared}
-      onInput={(event) => form.write(pointer, typed(event.currentTarget.value, textual))}
+      {...useTyping((text) => form.write(pointer, typed(text, textual, mark)))}
       onKeyDown={textual ? undefined : nudge}
     />
   );
@@ -161,12 +191,13 @@ function Select({schema, value, pointer, choices, shared}: Value & {choices: Jso
 function List({value, pointer, shared}: {value: Json | undefined; pointer: string; shared: object}) {
   const form = useForm();
   const numbers = Array.isArray(value) && value.every((each) => typeof each === 'number');
-  const text = value === undefined ? '' : numbers ? value.join(', ') : JSON.stringify(value);
+  const mark = unit(lastKey(pointer));
+  const text = value === undefined ? '' : numbers ? value.map((each) => entered(Number(each), mark)).join(', ') : JSON.stringify(value);
   const inline = value === undefined || (numbers && value.length <= inlineList && text.length <= inlineText);
   const bound = {
     value: text,
     ...shared,
-    onInput: (event: Event) => form.write(pointer, listed((event.currentTarget as HTMLInputElement).value)),
+    ...useTyping((given) => form.write(pointer, listed(given, mark))),
   };
   return inline ? <input type="text" {...bound} /> : <textarea rows={3} spellcheck={false} {...bound} />;
 }

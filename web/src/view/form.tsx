@@ -6,6 +6,7 @@ import {called, hintOf} from '../hint';
 import {at, isRow, join, put, type Json, type Row} from '../json';
 import {brief} from '../names';
 import type {Schema} from '../schema';
+import {shownUnit} from '../units';
 import {lastKey, sentence, unit} from '../words';
 import {partnerTone, Swatch} from './controls';
 import {Complaints, Field, Fields, Input, short, simple, useForm, useTold, type Value} from './field';
@@ -299,7 +300,7 @@ function Rows({kind, items, pointer, first}: {kind: Schema; items: Json[]; point
             {columns.map(({key, schema}) => (
               <th key={key} scope="col" title={hintOf(schema, join(head, key))}>
                 {sentence(brief(key, called(join(head, key))))}
-                <small>{unit(key)}</small>
+                <small>{shownUnit(unit(key))}</small>
               </th>
             ))}
             <td />

@@ -1,5 +1,6 @@
 import {cellValue, columns, impliedOf, type Column, type Sizes} from '../frame/members';
 import type {Row} from '../json';
+import {entered, shownUnit} from '../units';
 import {number, sentence, unit} from '../words';
 import {Swatch} from './controls';
 
@@ -87,11 +88,14 @@ function refused(marked: ReadonlySet<string>, row: number, {key, axis}: Column):
 const names: Record<string, string> = {id: 'name', diameter: 'Ø'};
 export function headOf({id, key, axis}: Column): string {
   const mark = unit(key);
-  return sentence(names[id] ?? id) + (mark && !axis ? ` ${mark}` : '');
+  return sentence(names[id] ?? id) + (mark && !axis ? ` ${shownUnit(mark)}` : '');
 }
 
 /** A cell's value in full, as it is edited. */
-export const cellText = (member: Row | undefined, column: Column | undefined): string => String((column && cellValue(member ?? {}, column)) ?? '');
+export function cellText(member: Row | undefined, column: Column | undefined): string {
+  const value = column && cellValue(member ?? {}, column);
+  return typeof value === 'number' && column ? entered(value, unit(column.key)) : String(value ?? '');
+}
 
 function shown(member: Row, column: Column, sizes: Sizes): string {
   const value = cellValue(member, column) ?? impliedOf(member, column, sizes);

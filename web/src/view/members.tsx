@@ -20,7 +20,8 @@ import {
 } from '../frame/members';
 import type {Row} from '../json';
 import {standings, told, toneOf} from '../pictures/frame_items';
-import {choice} from '../words';
+import {quantity} from '../units';
+import {choice, unit} from '../words';
 import {cellText, headOf, MemberRow, tall, type RowActs} from './member_row';
 import {useConsole} from './page';
 
@@ -99,7 +100,7 @@ export function MembersTable() {
     edit(null);
     const column = columns[at.column] as Column;
     const member = members[at.row];
-    const value = parseCell(text, column);
+    const value = (column.textual ? undefined : quantity(text, unit(column.key))) ?? parseCell(text, column);
     if (!member || value === cellValue(member, column)) return;
     const refused = column.id === 'id' ? nameRefused(body, at.row, String(value ?? '')) : undefined;
     say(refused ?? '');

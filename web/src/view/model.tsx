@@ -111,7 +111,7 @@ export function useModel({schedules, job, body, shown, take}: Given) {
       event.preventDefault();
       over(false);
       const file = event.dataTransfer?.files[0];
-      if (file) void dropped.current(file);
+      if (file && !/\.json$/i.test(file.name)) void dropped.current(file); // a job is opened as one
     });
   }, []);
   const chose = (event: {currentTarget: HTMLInputElement}) => {

@@ -1,7 +1,9 @@
-import {useLayoutEffect, useRef} from 'preact/hooks';
+import {useLayoutEffect, useMemo, useRef} from 'preact/hooks';
 import {described, lettered, Plot, walk} from '../charts';
 import type {Chart} from '../picture';
+import {inShownUnits} from '../pictures/units';
 import {dark} from '../theme';
+import {system} from '../units';
 
 interface Given {
   charts: Chart[];
@@ -12,10 +14,11 @@ interface Given {
 type Attempt = (act: () => void) => void;
 
 /** Charts of one kind are given new data instead of being made anew. */
-const kind = ({id, link, series}: Chart) => [id, link, dark.value, ...series.map((s) => s.name + s.tone)].join();
+const kind = ({id, link, x, series}: Chart) => [id, link, x.unit, dark.value, ...series.map((s) => s.name + s.tone)].join();
 
 /** A column of charts, which draw themselves. */
-export function Charts({charts, failed, ...more}: Given) {
+export function Charts({charts: given, failed, ...more}: Given) {
+  const charts = useMemo(() => given.map(inShownUnits), [given, system.value]);
   const root = useRef<HTMLDivElement>(null);
   const plots = useRef(new Set<Plot>());
   const kinds = charts.map(kind);

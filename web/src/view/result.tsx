@@ -27,7 +27,7 @@ export function Result() {
     <>
       <div id="verdict" role="status" aria-live="polite">
         {lost.value !== null ? (
-          <Silence title="This link is damaged." detail={`${lost.value} Request a new link, or choose an endpoint above.`} pill="no job" />
+          <Lost why={lost.value} as={console.lostAs.value} />
         ) : reply.value ? (
           <Verdict reply={reply.value} focus={(pointer) => console.seek(pointer)} again={() => console.compute()} facts={said.value} />
         ) : (
@@ -46,6 +46,14 @@ export function Result() {
     </>
   );
 }
+
+/** A link that leads to no job. */
+const Lost = ({why, as}: {why: string; as: string}) =>
+  as === 'damaged' ? (
+    <Silence title="This link is damaged." detail={`${why} Request a new link, or choose an endpoint above.`} pill="no job" />
+  ) : (
+    <Silence title="This job is not here." detail={why} pill="no job" />
+  );
 
 function Onward() {
   const console = useConsole();

@@ -1,4 +1,5 @@
 import type {Section} from '../picture';
+import {withUnit} from '../words';
 import {useCursor} from './controls';
 
 const thin = {'vector-effect': 'non-scaling-stroke'};
@@ -13,7 +14,7 @@ export function SectionView({given: {link, low, high, at}}: {given: Section}) {
     <>
       <figcaption>
         <b>{title}</b>
-        <span class="soft">the bar is {bar} mm</span>
+        <span class="soft">the bar is {withUnit(bar, 'mm')}</span>
       </figcaption>
       <svg viewBox={`0 0 ${width} ${height}`} role="img" aria-label={title}>
         {lines.map(({points, tone, dashed}, i) => (

@@ -2,8 +2,10 @@ import type {ComponentChildren} from 'preact';
 import type {Console} from '../console';
 import {endpointName, exampleName} from '../names';
 import {pressed} from '../preset';
+import {choose, system} from '../units';
 import {copied} from './controls';
 import {RequestForm} from './form';
+import {Jobs} from './jobs';
 import {Hint} from './hint';
 import {useModel} from './model';
 import {Page, useConsole} from './page';
@@ -26,6 +28,7 @@ export function Shell({console, children}: {console?: Console | undefined; child
         </nav>
         <div class="tools">
           {console && <Links />}
+          {console && <Units />}
           <ThemeButton />
           <a href="/glossary">Words</a>
           <a href="/docs">API</a>
@@ -125,6 +128,26 @@ function Examples() {
   );
 }
 
+/** Lengths in mm or in inches, to enter and to read; requests and files stay in mm. */
+function Units() {
+  const console = useConsole();
+  const inch = system.value === 'inch';
+  const turn = () => {
+    choose(inch ? 'mm' : 'inch');
+    console.refresh();
+  };
+  return (
+    <button
+      type="button"
+      id="units"
+      title={`Show lengths in ${inch ? 'mm' : 'inches'}; either is understood in every field: 2-3/8in, 1.75", 24.15*2`}
+      onClick={turn}
+    >
+      {inch ? 'inch' : 'mm'}
+    </button>
+  );
+}
+
 function Undo() {
   const {form} = useConsole();
   const {undoable, redoable} = form.history;
@@ -167,6 +190,7 @@ function Choices({children}: {children: ComponentChildren}) {
       >
         Tube laser
       </button>
+      <Jobs />
       <Undo />
       <button id="reset" type="button" hidden={!console.edited.value || example === undefined} onClick={() => console.open(endpoint, example)}>
         Reset

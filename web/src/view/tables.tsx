@@ -1,6 +1,6 @@
 import type {ComponentChildren} from 'preact';
 import type {Figure, Table as Given} from '../picture';
-import {hint, sentence, text, type Term} from '../words';
+import {beside, hint, sentence, text, type Term} from '../words';
 
 export const Figures = ({figures}: {figures: Figure[]}) => (
   <>
@@ -9,7 +9,7 @@ export const Figures = ({figures}: {figures: Figure[]}) => (
         <span>{sentence(name)}</span>
         <b>
           {value}
-          <small>{unit ? `${unit === '°' ? '' : ' '}${unit}` : ''}</small>
+          <small>{unit ? beside('', unit) : ''}</small>
         </b>
       </div>
     ))}

@@ -46,6 +46,9 @@ export const Silence = ({title, detail, again, pill = 'no answer'}: Silent) => (
   </div>
 );
 
+/** What it says may be more than there is room for. */
+const scrolled = {tabIndex: 0, role: 'group', 'aria-label': 'Verdict'} as const;
+
 /** Names a field, and leads to it. */
 const Place = ({pointer, focus}: {pointer: string; focus: Focus}) => (
   <button type="button" data-to={pointer} title="Show this field" onClick={() => focus(pointer)}>
@@ -56,7 +59,7 @@ const Place = ({pointer, focus}: {pointer: string; focus: Focus}) => (
 function Refusal({problem, focus}: {problem: Problem; focus: Focus}) {
   const issues = problem.errors ?? [];
   return (
-    <div class="verdict bad">
+    <div class="verdict bad" {...scrolled}>
       <p>
         <span class="pill">refused</span>
         <b>{problem.title}</b>
@@ -98,7 +101,7 @@ function Approval({answer, milliseconds, focus, facts}: {answer: Answer; millise
   const told = (given: Warning[]) => given.map((warning, i) => <Told key={i} warning={warning} focus={focus} />);
   const grouped = answer.job.endpoint === 'frames' && warnings.length > 0;
   return (
-    <div class={`verdict ${tone}`}>
+    <div class={`verdict ${tone}`} {...scrolled}>
       <p>
         <span class="pill">{status}</span>
         <span class="said">

@@ -1,0 +1,121 @@
+// A job is never lost: drafts, files, Back, and a service that goes away.
+import {strict as assert} from 'node:assert';
+import {execFileSync} from 'node:child_process';
+import {readFile} from 'node:fs/promises';
+import {answered, open, then} from '../browser.mjs';
+
+const example = async (name) => JSON.parse(await readFile(new URL(`../../../examples/${name}.json`, import.meta.url)));
+const field = (page, pointer) => page.locator(`[data-pointer="${pointer}"]`);
+const endpoint = (page) => page.locator('#endpoints [aria-current]').getAttribute('data-endpoint');
+const opened = (page, name, text) => page.locator('#job-file').setInputFiles({name, mimeType: 'application/json', buffer: Buffer.from(text)});
+async function request(page) {
+  const tab = page.locator('#tab-json');
+  if (await tab.getAttribute('aria-selected') !== 'true') await tab.click();
+  return JSON.parse(await page.locator('#request-json').innerText());
+}
+async function saved(page) {
+  const [file] = await Promise.all([page.waitForEvent('download'), page.locator('#save-job').click()]);
+  return {name: file.suggestedFilename(), text: await readFile(await file.path(), 'utf8')};
+}
+
+/** Tubes that stand apart, with names and places that no compression makes short: more than an address holds. */
+const many = () => {
+  let seed = 7;
+  const random = () => {
+    seed = (1103515245 * seed + 12345) % 2147483648;
+    return seed / 2147483648;
+  };
+  const members = Array.from({length: 330}, (_, i) => {
+    const [x, y] = [300 * (i % 25), 300 * Math.floor(i / 25)];
+    const at = (z) => [x + 50 * random(), y + 50 * random(), z + 100 * random()].map((v) => Number(v.toFixed(5)));
+    return {id: Array.from({length: 6}, () => Math.floor(1e15 * random()).toString(36)).join('-'), start_mm: at(0), end_mm: at(1000), outer_diameter_mm: 60.3, wall_mm: 4};
+  });
+  return {members};
+};
+
+export const checks = {
+  'a job is saved as a file and opened again, whatever it is': async ({browser, origin}) => {
+    const page = await open(browser, origin);
+    await answered(page);
+    for (const [id, name] of [['parts', 'chord-with-holes'], ['grooves', 'case-a'], ['frames', 'truss-of-19']]) {
+      const body = await example(`${id}/${name}`).catch(() => undefined);
+      if (!body) continue;
+      await then(page, () => opened(page, 'any name.json', JSON.stringify(body)));
+      assert.equal(await endpoint(page), id);
+      assert.deepEqual(await request(page), body);
+      const file = await saved(page);
+      assert.match(file.name, /\.json$/);
+      assert.deepEqual(JSON.parse(file.text), body);
+    }
+    await page.locator('#tab-downloads').click();
+    await opened(page, 'drawing.json', '{"colour": "red"}');
+    await page.locator('#trouble', {hasText: 'drawing.json is not a job'}).waitFor();
+    assert.equal(await endpoint(page), 'frames', 'the job that was there stays');
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  },
+
+  'the request of a packet is opened': async ({browser, origin, service}) => {
+    const body = await example('frames/truss-of-19');
+    const {body: bytes} = await service.ask('/v1/frames?format=zip', {body: JSON.stringify(body)});
+    const name = execFileSync('sh', ['-c', 'f=$(mktemp); cat > "$f"; echo "$f"'], {input: bytes, encoding: 'utf8'}).trim();
+    const text = execFileSync('unzip', ['-p', name, 'request.json'], {encoding: 'utf8'});
+    execFileSync('rm', [name]);
+    const page = await open(browser, origin);
+    await answered(page);
+    await then(page, () => opened(page, 'request.json', text));
+    assert.equal(await endpoint(page), 'frames');
+    assert.match(await page.locator('#verdict .pill').innerText(), /ok|review/);
+    await page.context().close();
+  },
+
+  'a job too long for a link outlives the page and comes back by Back': async ({browser, origin}) => {
+    const body = {...await example('frames/truss-of-19'), members: many().members};
+    delete body.joints;
+    delete body.ends;
+    const page = await open(browser, origin);
+    await answered(page);
+    await then(page, () => opened(page, 'field.json', JSON.stringify(body)));
+    await page.waitForURL(/#\/frames\/@\w+$/);
+    await then(page, () => field(page, '/kerf_mm').fill('2.5'));
+    await page.waitForTimeout(400);
+    await page.reload();
+    await answered(page);
+    assert.equal(await field(page, '/kerf_mm').inputValue(), '2.5', 'after a reload');
+    assert.equal(JSON.parse((await saved(page)).text).members.length, 330);
+    await page.locator('#share').click();
+    await page.getByText('Too long: save the job').waitFor();
+    await then(page, () => page.locator('#endpoints [data-endpoint=holes]').click());
+    await page.waitForURL(/#\/holes/);
+    await then(page, () => page.goBack());
+    assert.equal(await endpoint(page), 'frames');
+    assert.equal(await field(page, '/kerf_mm').inputValue(), '2.5', 'after Back');
+    const hash = new URL(page.url()).hash;
+    await page.context().close();
+
+    const stranger = await open(browser, origin, hash);
+    await answered(stranger);
+    assert.match(await stranger.locator('#verdict').innerText(), /This job is not here/);
+    await stranger.context().close();
+  },
+
+  'a service that comes back is asked again, without a hand': async ({browser, origin}) => {
+    const page = await open(browser, origin);
+    await answered(page);
+    const away = (route) => route.abort();
+    await page.context().route('**/v1/**', away);
+    await then(page, () => field(page, '/target/wall_mm').fill('6'));
+    assert.match(await page.locator('#verdict').innerText(), /cannot be reached/);
+    await then(page, () => page.context().unroute('**/v1/**', away));
+    assert.match(await page.locator('#verdict .pill').innerText(), /ok|review/);
+    assert.equal(await field(page, '/target/wall_mm').inputValue(), '6');
+
+    await page.context().route('**/v1/**', away);
+    await page.goto(`${origin}/`);
+    await page.reload();
+    await page.getByText('The console could not start.').waitFor();
+    await page.context().unroute('**/v1/**', away);
+    await answered(page);
+    await page.context().close();
+  },
+};
