@@ -57,7 +57,7 @@ const lengths: Record<string, number> = {
   '′': 12 * inch,
   '’': 12 * inch,
 };
-const token = /\s*(?:(\d+[-\s]\d+\/\d+|\d+\/\d+|(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?)|(mm|cm|m|in|ft|["″”'′’])(?![a-z])|([-+*/()]))/y;
+const token = /\s*(?:((?:\d+[-\s])?\d+\/\d+(?![\d.,])|(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?)|(mm|cm|m|in|ft|["″”'′’])(?![a-z])|([-+*/()]))/y;
 
 /** A number that is typed: of a unit of the wire, or of none. With what it is a length of, or not. */
 interface Amount {
@@ -149,5 +149,5 @@ function numeral(text: string): number {
   return over === undefined ? Number(text.replace(',', '.')) : Number(whole) + Number(over) / Number(under);
 }
 
-/** A value of the wire as it is typed in its field: no more digits than tell it from its neighbours. */
-export const entered = (value: number, unit: string): string => (other(unit) ? String(Number(toShown(value, unit).toPrecision(9))) : String(value));
+/** Returns a value of the wire as its field shows it. A field that nobody changes keeps its value in full. */
+export const entered = (value: number, unit: string): string => (other(unit) ? String(Number(toShown(value, unit).toPrecision(6))) : String(value));

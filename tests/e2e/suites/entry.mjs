@@ -47,7 +47,8 @@ export const checks = {
       await answered(page);
       if (size.width < 800) await page.locator('#edit').click();
       const wall = field(page, '/target/wall_mm');
-      const places = () => page.locator('#pictures, #verdict').evaluateAll((nodes) => nodes.map((node) => node.getBoundingClientRect().top + document.documentElement.scrollTop));
+      const shown = size.width < 800 ? '.pick, [data-pointer="/target/wall_mm"]' : '#pictures, #verdict';  // a phone has the pictures under the form
+      const places = () => page.locator(shown).evaluateAll((nodes) => nodes.map((node) => node.getBoundingClientRect().top + document.documentElement.scrollTop));
       const before = await places();
       const count = await answers(page);
       await wall.focus();

@@ -192,7 +192,7 @@ function Choices({children}: {children: ComponentChildren}) {
       </button>
       <Jobs />
       <Undo />
-      <button id="reset" type="button" hidden={!console.edited.value || example === undefined} onClick={() => console.open(endpoint, example)}>
+      <button id="reset" type="button" hidden={example === undefined} disabled={!console.edited.value} onClick={() => console.open(endpoint, example)}>
         Reset
       </button>
       <button
