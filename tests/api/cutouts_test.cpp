@@ -82,7 +82,10 @@ TEST(Cutouts, AreRefusedWhereTheIndependentProgramRefusesThem) {
     ASSERT_TRUE(refused.outcome.error) << name;
     EXPECT_EQ(text(refused.body, "errors/0/code"), text(one, "code")) << name;
     EXPECT_EQ(text(refused.body, "errors/0/pointer"), text(one, "pointer")) << name;
-    EXPECT_EQ(at(refused.body, "errors").as<Json::Array>()->size(), 1u) << name;
+    // A face of a round tube is refused with the offset on it.
+    EXPECT_EQ(at(refused.body, "errors").as<Json::Array>()->size(),
+              name == "face_on_round" ? 2u : 1u)
+        << refused.outcome.body;
     ++seen;
   }
   EXPECT_EQ(seen, 17u);
@@ -165,7 +168,7 @@ TEST(Cutouts, AllOfThemAreInEveryFile) {
   EXPECT_GE(count(text_of("format=step"), "cut-out p far"), 1u);
   EXPECT_GE(count(text_of("format=svg"), "slot 30 x 10"), 1u);
   EXPECT_GE(count(text_of("format=csv"), "cut-out s"), 1u);
-  EXPECT_GE(count(text_of("format=gcode&speed=20&lead_mm=3"), "cut-out p"), 2u);
+  EXPECT_GE(count(text_of("format=gcode&speed_mm_min=1200&lead_mm=3"), "cut-out p"), 2u);
 }
 
 TEST(Cutouts, AThousandAndMoreAreOneShapeMoved) {
