@@ -26,6 +26,8 @@ export class Contract {
   // The schema a reference names, else the schema itself.
   resolve(schema) {
     while (schema?.$ref) schema = this.at(schema.$ref);
+    // A choice that some values fit twice, such as the name of a size, is drawn like one that none does.
+    if (schema?.anyOf?.every((branch) => branch.$ref)) return {oneOf: schema.anyOf};
     return schema;
   }
 

@@ -156,6 +156,8 @@ class Leads(FormatTest):
                 torch_program.check_heights(found, PIERCE, HEIGHT)
                 self.assertEqual(len(found), len(steps))
                 for cut, step in zip(found, steps):
+                    if step["what"] == "cutout":  # has no row of the answer's tables
+                        continue
                     line = Line(result, step, outer, wall)
                     self.check(cut, line)
                     cuts, holes = cuts + 1, holes + line.hole
@@ -180,6 +182,8 @@ class Leads(FormatTest):
             result = self.service.answer("parts", body)["result"]
             outer, wall = body["target"]["outer_diameter_mm"] / 2, body["target"]["wall_mm"]
             for cut, step in zip(torch_program.replay(self.program(body), outer, PIVOT), [s for s in result["sequence"] if s["what"] != "mark"]):
+                if step["what"] == "cutout":
+                    continue
                 line = Line(result, step, outer, wall)
                 places, first = [(p.phi, p.z, p.b, p.a) for p in cut.places], joins(cut)
                 a, b, c = (line.flat(places[i], False) for i in (first - 1, first, first + 1))

@@ -62,7 +62,7 @@ def largest_replay(service):
             text = sock.recv(1 << 16).decode()
         except TimeoutError:
             return 8 << 20
-    return int(text.split("room for ")[1].split(" ")[0])
+    return int(text.split("free memory of ")[1].split(" ")[0])
 
 
 def drained(port, request, statuses, patience=120.0):
