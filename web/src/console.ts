@@ -115,10 +115,14 @@ export class Console {
     if (!place && hash && this.job.value) return this.remember(); // a place in this page
     if (place && 'damage' in place) return this.lose(place.damage);
     const draft = place?.draft ?? (history.state as {draft?: string} | null)?.draft;
-    const kept = place?.draft ? await draftOf(place.draft) : undefined;
+    const stored = draft && place && !place.example ? await draftOf(draft) : undefined;
+    const kept = stored?.endpoint === place?.endpoint ? stored : undefined;
     if (place?.draft && !kept)
       return this.lose('This job is kept in the browser that it was made in. Save it there as a file, and open the file here.', 'not here');
-    const {endpoint, example, body = kept?.body, view} = place ?? {...firstJob, body: undefined, view: {} as Record<string, string>};
+    // The draft may be newer than its address, which follows a moment after each change.
+    const {endpoint, example, body, view} = place
+      ? {...place, body: kept?.body ?? place.body}
+      : {...firstJob, body: undefined, view: {} as Record<string, string>};
     if (!this.endpoints.some((e) => e.id === endpoint)) return this.lose(`There is no page called "${endpoint}".`);
     if (example && !this.examples.some((e) => e.endpoint === endpoint && e.name === example))
       return this.lose(`${endpointName(endpoint)} has no example called "${example}".`);
@@ -165,6 +169,7 @@ export class Console {
 
   /** `draft`: of a job that has one; else it gets one with its first change. */
   begin(endpoint: string, example: string | undefined, body: Row, edited: boolean, draft?: string): void {
+    this.form.flush();
     this.draft = draft ?? newId();
     batch(() => {
       this.endpoint.value = endpoint;
@@ -199,6 +204,7 @@ export class Console {
 
   /** The request as a file; it is opened again here, or sent to the service as it is. */
   saveJob(name: string): void {
+    this.form.flush();
     save(`${name}.json`, new Blob([JSON.stringify(this.body, null, 2)], {type: 'application/json'}));
   }
 

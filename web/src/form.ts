@@ -33,6 +33,8 @@ export class Form {
   readonly drawn = signal<{schema: Schema; body: Row; build: number}>({schema: {}, body: {}, build: 0});
   body: Row = {};
   readonly history = new History();
+  /** Writes what is typed and not yet written, by field. */
+  readonly pending = new Set<() => void>();
   /** The request as the service understood it: its defaults are the fields' placeholders. */
   readonly echo = signal<Row>({});
   readonly complaints = signal(none);
@@ -81,13 +83,20 @@ export class Form {
     this.changed();
   }
 
+  /** Writes all that is typed, before the job is saved or another one takes its place. */
+  flush(): void {
+    for (const write of [...this.pending]) write();
+  }
+
   /** All fields anew, such as in another unit. */
   refresh(): void {
+    this.flush();
     this.drawn.value = {...this.drawn.value, body: this.body, build: this.drawn.value.build + 1};
   }
 
   /** Back to the state before, or on to the one after: all fields are made anew, because what was typed is in them alone. */
   go(by: 1 | -1): void {
+    this.flush();
     const step = this.history.go(by);
     if (!step) return;
     this.body = step.body;

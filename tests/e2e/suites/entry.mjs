@@ -41,6 +41,23 @@ export const checks = {
     await page.context().close();
   },
 
+  'what is typed is of the job that it was typed in': async ({browser, origin}) => {
+    const page = await open(browser, origin, '#/bevel-tables/source-000-table-1');
+    await answered(page);
+    await field(page, '/target/wall_mm').fill('6');  // no pause after it
+    await then(page, () => page.evaluate(() => {
+      location.hash = '#/intersections/source-000-table-1';
+    }));
+    await page.waitForTimeout(600);
+    assert.equal((await request(page)).target.wall_mm, 5);
+    await page.locator('#tab-proof').click();
+    await field(page, '/target/wall_mm').fill('7');
+    const [file] = await Promise.all([page.waitForEvent('download'), page.locator('#save-job').click()]);
+    assert.equal(JSON.parse(await readFile(await file.path(), 'utf8')).target.wall_mm, 7);
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  },
+
   'nothing is checked in the middle of a number, and nothing moves': async ({browser, origin}) => {
     for (const size of [{width: 1280, height: 800}, {width: 390, height: 844}]) {
       const page = await open(browser, origin, '', size);

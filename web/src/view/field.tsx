@@ -109,6 +109,7 @@ const pause = 400; // ms after which what is typed is complete
  * step or a drag is written at once.
  */
 function useTyping(write: (text: string) => void) {
+  const form = useForm();
   const due = useRef<{timer: number; text: string} | undefined>(undefined);
   const latest = useRef(write);
   latest.current = write;
@@ -116,13 +117,24 @@ function useTyping(write: (text: string) => void) {
     const {timer, text} = due.current ?? {};
     clearTimeout(timer);
     due.current = undefined;
+    form.pending.delete(flush);
     if (text !== undefined) latest.current(text);
   };
-  useEffect(() => flush, []);
+  const latestFlush = useRef(flush);
+  useEffect(
+    () => () => {
+      clearTimeout(due.current?.timer); // a field that is gone writes nothing into what came after it
+      form.pending.delete(latestFlush.current);
+    },
+    [],
+  );
   return {
     onInput: (event: Event) => {
       const text = (event.currentTarget as HTMLInputElement).value;
       clearTimeout(due.current?.timer);
+      form.pending.delete(latestFlush.current);
+      latestFlush.current = flush;
+      form.pending.add(flush);
       due.current = {timer: window.setTimeout(flush, pause), text};
       if (!event.isTrusted) flush();
     },
