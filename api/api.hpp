@@ -149,9 +149,10 @@ struct Example {
 [[nodiscard]] std::string_view commit();
 [[nodiscard]] int numerics();
 
-/// "tubecut 0.1.0 (1a2b3c4d5e6f)": names the build in answers, logs and machine files.
+/// "tubecut 0.1.0+1a2b3c4d5e6f": names the build in answers, logs and machine files. A comment of
+/// G-code cannot contain parentheses.
 [[nodiscard]] inline std::string engine() {
-  const std::string of = commit().empty() ? "" : " (" + std::string(commit()) + ")";
+  const std::string of = commit().empty() ? "" : "+" + std::string(commit());
   return "tubecut " + std::string(version()) + of;
 }
 
