@@ -245,6 +245,19 @@ WallCurve::Node WallCurve::node(const Place& place) const {
   return out;
 }
 
+WallCurve::Node WallCurve::node_at(double from_station, double origin) const {
+  double at = origin + from_station;
+  const bool wrapped = at >= around_;
+  if (wrapped) at -= around_;
+  const auto after = std::upper_bound(along_.begin(), along_.end(), at);
+  const auto row = static_cast<std::size_t>(after - along_.begin()) - 1;
+  std::vector<Node> out{node({row, (at - along_[row]) / length_[row]})};
+  lay_in_space(out);
+  out.front().along = from_station;
+  out.front().turn = wrapped ? 1.0 : 0.0;
+  return std::move(out.front());
+}
+
 /// All of them at a time: side by side a sine costs a quarter.
 void WallCurve::lay_in_space(std::vector<Node>& nodes) const {
   std::vector<double> phi(nodes.size()), sin(nodes.size()), cos(nodes.size());

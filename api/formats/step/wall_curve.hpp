@@ -103,6 +103,14 @@ class WallCurve {
   [[nodiscard]] Pair cubics(std::size_t edge, const Node& from, const Node& to) const;
   [[nodiscard]] std::size_t farthest(const std::vector<Node>& nodes, std::size_t from,
                                      const std::stop_token& stop) const;
+  /// Returns the node at a distance along the rows from the first station, which is at `origin`.
+  [[nodiscard]] Node node_at(double from_station, double origin) const;
+  /// Returns whether the cubics between two nodes stay on their cylinders.
+  [[nodiscard]] bool on_cylinders(const Node& from, const Node& to) const;
+  /// Appends the span between two nodes. If it leaves its cylinders, both halves, and so on up to
+  /// `halvings` times.
+  void add_spans(const Node& from, const Node& to, double origin, int halvings,
+                 std::vector<Span>& out) const;
   [[nodiscard]] std::vector<Span> spans(const std::vector<Node>& nodes,
                                         const std::stop_token& stop) const;
   [[nodiscard]] static std::vector<Span> graded(std::vector<Span> spans,

@@ -16,6 +16,10 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kUneven = 6.0;  // ratio of a span to an adjacent one
+// mm, of a span between two adjacent nodes from its cylinder. If phi's rate changes much there, as
+// next to a corner, the cubic in space leaves the cylinder, although the one in (phi, z) does not.
+constexpr double kOffAlone = 1e-4;
+constexpr int kHalvings = 8;  // each takes a sixteenth of that distance
 
 Vector3d on_wall(double radius, const Vector2d& p) {
   const auto [sin, cos] = elementary::sincos(p.x());
@@ -137,25 +141,47 @@ std::size_t WallCurve::farthest(const std::vector<Node>& nodes, std::size_t from
   return good;
 }
 
+bool WallCurve::on_cylinders(const Node& from, const Node& to) const {
+  for (std::size_t k = 0; k < edges_.size(); ++k) {
+    const auto both = cubics(k, from, to);
+    for (const double u : {0.25, 0.5, 0.75}) {
+      const double off = value(both.space, u).head<2>().norm() - edges_[k].radius;
+      if (std::abs(off) > kOffAlone) return false;
+    }
+  }
+  return true;
+}
+
+void WallCurve::add_spans(const Node& from, const Node& to, double origin, int halvings,
+                          std::vector<Span>& out) const {
+  if (halvings > 0 && !on_cylinders(from, to)) {
+    const auto middle = node_at(0.5 * (from.along + to.along), origin);
+    add_spans(from, middle, origin, halvings - 1, out);
+    add_spans(middle, to, origin, halvings - 1, out);
+    return;
+  }
+  Span one{.curves = {},
+           .flats = {},
+           .wide = 0.0,
+           .full = to.corner || to.station,
+           .station = to.station};
+  for (std::size_t k = 0; k < edges_.size(); ++k) {
+    const auto both = cubics(k, from, to);
+    one.curves.push_back(both.space);
+    one.flats.push_back(both.flat);
+    one.wide = std::max(one.wide, 3.0 * handle(turned(k, from, to)) * (to.along - from.along));
+  }
+  out.push_back(std::move(one));
+}
+
 std::vector<WallCurve::Span> WallCurve::spans(const std::vector<Node>& nodes,
                                               const std::stop_token& stop) const {
   std::vector<Span> out;
+  const double origin = along(nodes.front().place);
   for (std::size_t from = 0; from + 1 < nodes.size();) {
     ask(stop);
     const auto to = farthest(nodes, from, stop);
-    const auto &a = nodes[from], &b = nodes[to];
-    Span one{.curves = {},
-             .flats = {},
-             .wide = 0.0,
-             .full = b.corner || b.station,
-             .station = b.station};
-    for (std::size_t k = 0; k < edges_.size(); ++k) {
-      const auto both = cubics(k, a, b);
-      one.curves.push_back(both.space);
-      one.flats.push_back(both.flat);
-      one.wide = std::max(one.wide, 3.0 * handle(turned(k, a, b)) * (b.along - a.along));
-    }
-    out.push_back(std::move(one));
+    add_spans(nodes[from], nodes[to], origin, to == from + 1 ? kHalvings : 0, out);
     from = to;
   }
   return out;
