@@ -26,8 +26,9 @@ export class Contract {
   // The schema a reference names, else the schema itself.
   resolve(schema) {
     while (schema?.$ref) schema = this.at(schema.$ref);
-    // A choice that some values fit twice, such as the name of a size, is drawn like one that none does.
-    if (schema?.anyOf?.every((branch) => branch.$ref)) return {oneOf: schema.anyOf};
+    // A choice that some values fit twice, such as the name of a size, is drawn like one that none
+    // does. Its branches are those of both, because an edit compares each with the others.
+    if (schema?.anyOf?.every((branch) => branch.$ref)) return {oneOf: schema.anyOf.flatMap((branch) => this.resolve(branch).oneOf ?? [branch])};
     return schema;
   }
 
