@@ -23,7 +23,7 @@ using cutout::Flat;
 
 constexpr int kMost = static_cast<int>(cutout::kMostCutouts);
 constexpr std::size_t kMostPieces = 500;
-constexpr Range kSize{.min = 0.0, .max = 1e5, .open_min = true};
+constexpr Range kSize{.min = 0.1, .max = 1e5};  // mm; no beam cuts a smaller one
 constexpr Range kCorner{.min = 0.0, .max = 5e4};
 constexpr Range kPlace{.min = -1e5, .max = 1e5};
 constexpr Range kTurnDeg{.min = -360.0, .max = 360.0};
@@ -64,11 +64,12 @@ cutout::Contour decode_contour_shape(Reader& in) {
   return out;
 }
 
-/// The least corner that the kerf allows, or 0 with corners as_cut.
+/// The least corner that the kerf allows, or 0 with corners as_cut or if a side is refused.
 double default_radius(const Common& common, const cutout::Spec& spec, const cutout::Rectangle& r,
                       cutout::Lay lay) {
   const auto& tube = common.once.target;
-  if (spec.as_cut || !(tube.inner_radius() > 0.0)) return 0.0;
+  const bool sides = r.along > 0.0 && r.round > 0.0;
+  if (spec.as_cut || !sides || !(tube.inner_radius() > 0.0)) return 0.0;
   const cutout::Laying laying(tube, lay, false);
   const auto box = bounds(turned(cutout::rectangle(r.along, r.round, 0.0), spec.turn));
   const double b = std::min(box.most.y(), 0.999 * tube.inner_radius());

@@ -103,6 +103,22 @@ TEST(Cutouts, TheEchoIsTheSameJob) {
   EXPECT_GT(number(first.body, "request/cutouts/0/shape/corner_radius_mm"), 0.75);
 }
 
+TEST(Cutouts, ARefusedSideOfARectangleIsOneError) {
+  for (const char* sides : {R"("along_mm": 1e-300, "round_mm": 20)", R"("round_mm": 20)",
+                            R"("along_mm": 40, "round_mm": "x")"}) {
+    const auto refused = post(
+        kParts, part_with(list(R"({"id": "w", "shape": {"kind": "rectangle", )" +
+                               std::string(sides) + R"(}, "at": {"z_mm": 100, "girth_mm": 50}})")));
+    ASSERT_TRUE(refused.outcome.error) << sides;
+    EXPECT_EQ(at(refused.body, "errors").as<Json::Array>()->size(), 1u) << refused.outcome.body;
+    EXPECT_TRUE(text(refused.body, "errors/0/pointer").starts_with("/cutouts/0/shape/")) << sides;
+  }
+  const auto neither = post(kParts, part_with(list(R"({"id": "w", "shape": {"kind": "rectangle"},
+                                                       "at": {"z_mm": 100, "girth_mm": 50}})")));
+  ASSERT_TRUE(neither.outcome.error);
+  EXPECT_EQ(at(neither.body, "errors").as<Json::Array>()->size(), 2u) << neither.outcome.body;
+}
+
 TEST(Cutouts, FromTheFinishIsTheLengthLessFromTheStart) {
   const auto start = post(kParts, part_with(list(circle())));
   const auto finish =

@@ -10,6 +10,7 @@ import {checkEnd, cutBy, type Knowledge} from './tables.js';
 
 type Numbers = {[name: string]: number};
 const v3 = (v: unknown) => v as V3;
+const CUTOUTS = 'cut-outs are not covered';
 const list = (v: unknown) => (v ?? []) as Body[];
 const num = (v: unknown, otherwise = 0): number => (typeof v === 'number' ? v : otherwise);
 type Side = 'start' | 'finish';
@@ -316,11 +317,15 @@ function checkFigures(
     scope.same('lengths', lengths[name] as number, own, 3 * fine, 'mm', name);
     scope.covers(`lengths/${name}`);
   }
-  const volume = under(cuts.finish, e) - under(cuts.start, s) - plugs(holes, R, r);
-  const own = lengths['volume_mm3'] as number;
-  scope.same('volume', own / volume, 1, holes.length ? 5e-4 : 1e-9, '');
-  scope.same('mass', lengths['mass_kg'] as number, own * 1e-9 * num(request['density_kg_m3'], 7850), 1e-12 * (1 + (lengths['mass_kg'] as number)), 'kg');
-  scope.covers('lengths/volume_mm3', 'lengths/mass_kg');
+  if (list(request['cutouts']).length > 0) {
+    for (const name of ['cutouts', 'lengths/volume_mm3', 'lengths/mass_kg']) scope.not(name, CUTOUTS);
+  } else {
+    const volume = under(cuts.finish, e) - under(cuts.start, s) - plugs(holes, R, r);
+    const own = lengths['volume_mm3'] as number;
+    scope.same('volume', own / volume, 1, holes.length ? 5e-4 : 1e-9, '');
+    scope.same('mass', lengths['mass_kg'] as number, own * 1e-9 * num(request['density_kg_m3'], 7850), 1e-12 * (1 + (lengths['mass_kg'] as number)), 'kg');
+    scope.covers('lengths/volume_mm3', 'lengths/mass_kg');
+  }
   for (const dimension of list(result['check_dimensions'])) {
     const value = dimensionOf(String(dimension['name']), s, e, ends, R, r, tip, throat);
     if (value === undefined) scope.not('check_dimensions', `${dimension['name']} is unknown`);
@@ -471,6 +476,7 @@ function checkMarks(scope: Scope, request: Body, result: Body, ends: {[side in S
   scope.covers(...['phi_deg', 'girth_mm', 'z_from_mm', 'z_to_mm'].map((name) => `marks/*/${name}`));
   for (const step of list(result['sequence']) as unknown as (Numbers & {what: string})[]) {
     const torch = (points: {[name: string]: number[]}, names: string[]) => names.flatMap((name) => points[name] as number[]);
+    if (step.what === 'cutout') continue;
     const index = step['index'] as number;
     const mark = marks[index];
     const hole = list(result['holes'])[index];
@@ -483,5 +489,6 @@ function checkMarks(scope: Scope, request: Body, result: Body, ends: {[side in S
     scope.same('sequence', step['z_from_mm'] as number, Math.min(...(z as number[])), 1e-9, 'mm', step.what);
     scope.same('sequence', step['z_to_mm'] as number, Math.max(...(z as number[])), 1e-9, 'mm', step.what);
   }
-  scope.covers('sequence/*/z_from_mm', 'sequence/*/z_to_mm', 'sequence/*/index');
+  if (list(request['cutouts']).length > 0) scope.not('sequence', CUTOUTS);
+  else scope.covers('sequence/*/z_from_mm', 'sequence/*/z_to_mm', 'sequence/*/index');
 }
