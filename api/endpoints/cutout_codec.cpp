@@ -283,6 +283,19 @@ void encode_group(const part::PartSpec& spec, const part::Part& part,
   });
 }
 
+/// The instances of one asked cut-out on one side are a group.
+std::vector<std::vector<std::size_t>> groups_of(const cutout::Layout& layout) {
+  std::vector<std::vector<std::size_t>> out;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;
+  for (std::size_t i = 0; i < layout.instances.size(); ++i) {
+    const auto& one = layout.instances[i];
+    const auto [at, fresh] = known.try_emplace({one.asked, one.mould}, out.size());
+    if (fresh) out.emplace_back();
+    out[at->second].push_back(i);
+  }
+  return out;
+}
+
 void encode_web(std::string_view name, const part::CutoutWeb& web, const part::Part& part,
                 Writer& w) {
   using Beside = part::CutoutWeb::Beside;
@@ -311,15 +324,7 @@ void encode_cutouts(const part::PartSpec& spec, const part::Part& part, bool sea
                     Writer& w) {
   const auto& layout = part.cutouts;
   if (layout.empty()) return;
-  std::vector<std::vector<std::size_t>> groups;
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;
-  for (std::size_t i = 0; i < layout.instances.size(); ++i) {
-    const auto& one = layout.instances[i];
-    const auto [at, fresh] = known.try_emplace({one.asked, one.mould}, groups.size());
-    if (fresh) groups.emplace_back();
-    groups[at->second].push_back(i);
-  }
-  w.array("cutouts", groups, [&](Writer& each, const std::vector<std::size_t>& group) {
+  w.array("cutouts", groups_of(layout), [&](Writer& each, const std::vector<std::size_t>& group) {
     each.object([&](Writer& o) { encode_group(spec, part, group, o); });
   });
   const auto& report = part.cutout_report;
@@ -337,6 +342,14 @@ void encode_cutouts(const part::PartSpec& spec, const part::Part& part, bool sea
       n.field("share", report.net.share);
     });
   });
+}
+
+std::vector<std::size_t> places_in_answer(const cutout::Layout& layout) {
+  std::vector<std::size_t> out(layout.instances.size());
+  std::size_t next = 0;
+  for (const auto& group : groups_of(layout))
+    for (const auto i : group) out[i] = next++;
+  return out;
 }
 
 std::vector<Measure> measures_of_cutouts(const part::PartSpec& spec, const part::Part& part,

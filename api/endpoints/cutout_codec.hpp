@@ -16,6 +16,8 @@ namespace tubecut::api {
 
 /// `cutouts` and `cutout_report` of an answer; nothing where none were requested.
 void encode_cutouts(const part::PartSpec& spec, const part::Part& part, bool seam_known, Writer& w);
+/// Returns the place of each instance in that answer, counted through all groups.
+[[nodiscard]] std::vector<std::size_t> places_in_answer(const cutout::Layout& layout);
 [[nodiscard]] std::vector<Measure> measures_of_cutouts(const part::PartSpec& spec,
                                                        const part::Part& part, bool seam_known);
 

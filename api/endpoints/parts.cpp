@@ -97,12 +97,15 @@ void encode_dimension(Writer& each, const part::CheckDimension& d) {
   });
 }
 
-void encode_step(Writer& each, const Step& step) {
-  each.object([&](Writer& o) {
-    o.field("what", name_of(step.what));
-    o.field("index", step.index);
-    o.field("z_from_mm", step.z_from);
-    o.field("z_to_mm", step.z_to);
+void encode_sequence(const part::Part& part, Writer& w) {
+  const auto places = places_in_answer(part.cutouts);
+  w.array("sequence", part.sequence, [&](Writer& each, const Step& step) {
+    each.object([&](Writer& o) {
+      o.field("what", name_of(step.what));
+      o.field("index", step.what == Step::What::cutout ? places[step.index] : step.index);
+      o.field("z_from_mm", step.z_from);
+      o.field("z_to_mm", step.z_to);
+    });
   });
 }
 
@@ -199,7 +202,7 @@ void Parts::encode(const Spec& spec, const Out& out, Writer& w) {
       o.field("z_to_mm", mark.z_to);
     });
   });
-  w.array("sequence", out.sequence, encode_step);
+  encode_sequence(out, w);
   if (out.laser) encode_webs(out.laser->webs, spec.seam_known(), w);
 }
 

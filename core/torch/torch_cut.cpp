@@ -68,7 +68,7 @@ TorchCut cutout_cut(const part::PartSpec& spec, const part::Part& part, std::siz
   const auto& one = part.cutouts.instances[index];
   const auto& mould = part.cutouts.mould_of(one);
   const auto rows = cutout::placed(part.cutouts, one);
-  TorchCut out{.name = "cut-out " + one.name + (mould.laying.far() ? ", far side" : ""),
+  TorchCut out{.name = "cut-out " + one.name + (mould.laying.far() ? " far" : ""),
                .path = on_tube(spec.target, motion::Scrap::inside),
                .kerf = spec.cutouts.kerf};
   out.path.phi = rows.torch_phi;

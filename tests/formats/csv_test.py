@@ -6,7 +6,7 @@ import json
 import math
 import re
 
-from service import FormatTest, examples, main
+from service import FormatTest, cutout_name, examples, main
 
 # Arrays of the answers that are no columns of a table: coefficients, names, vectors, the points of a program's ways.
 NO_COLUMNS = re.compile(r"^(fit|comparison\[\d+\])\.(chebyshev|scaled|seconds|seconds_rounded)$|cutter_ids$|^(axes|idle)$|^frame\."
@@ -34,6 +34,9 @@ def label_of(endpoint, result, path):
     if endpoint == "holes":
         return "side", result["holes"][int(at[2])]["side"] if at else "branch"
     if endpoint == "parts":
+        if at and at[1] == "cutouts":
+            group = result["cutouts"][int(at[2])]
+            return "cut", cutout_name(group, group["instances"][0])
         return "cut", f"hole {at[2]}" if at else path.split(".")[1]
     return None
 
@@ -68,7 +71,7 @@ class Csv(FormatTest):
         return found
 
     def bodies(self, endpoint):
-        yield from examples(endpoint).items()
+        yield from examples(endpoint, drawn=False).items()
         if endpoint == "bevel-tables":  # 360 i / n is exact, not through radians and back
             yield "uniform", examples(endpoint)["zones"] | {"sampling": {"uniform_points": 12}}
         if endpoint == "holes":

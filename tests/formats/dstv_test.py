@@ -5,12 +5,13 @@ import math
 import re
 
 from dxf_test import polylines, read
-from service import HOSTILE, FormatTest, examples, main, off_curve, rolled, seam_row
+from service import HOSTILE, FormatTest, cutout_points, cutouts, examples, main, off_curve, rolled, seam_row
 
 HEADER = ("order", "drawing", "phase", "piece", "grade", "quantity", "profile", "code", "length", "height", "flange_width",
           "flange", "web", "radius", "weight", "paint", "web_start", "web_end", "flange_start", "flange_end",
           "text1", "text2", "text3", "text4")
 NUMBER = r"-?\d+\.\d+"
+BORE = re.compile(rf"^  ([vouh])\s+({NUMBER})([ous])\s+({NUMBER})\s+({NUMBER})\s+({NUMBER})$")
 POINT = re.compile(rf"^  ([ vouh])\s+({NUMBER})([ous ]?)\s+({NUMBER})\s+({NUMBER})(?:\s+({NUMBER})\s+({NUMBER})\s+({NUMBER})\s+({NUMBER}))?$")
 
 
@@ -28,9 +29,12 @@ def parse(text):
             block = []
             blocks.setdefault(line, []).append(block)
             continue
-        found = POINT.match(line)
+        found = BORE.match(line) if "BO" in blocks and block is blocks["BO"][-1] else POINT.match(line)
         if not found or block is None:
             raise AssertionError(f"no point: {line!r}")
+        if found.re is BORE:
+            block.append(tuple(float(found[k]) for k in (2, 4, 5, 6)))
+            continue
         block.append((float(found[2]), float(found[4]), float(found[6] or 0)))
     return {"comments": comments, "header": {k: v.strip() for k, v in header.items()}, **blocks}
 
@@ -122,12 +126,16 @@ class WholePart(FormatTest):
                 self.assertEqual(len(outside), len(wanted))
                 for got, want in zip(outside, wanted):
                     self.assertLess(math.dist(got[:2], want), 2e-3)
-                for got, hole in zip(file.get("IK", []), self.in_order(result), strict=True):
-                    p = hole["points"]
+                for got, p in zip(file.get("IK", []), self.outlines(body, result), strict=True):
                     wanted = [(z, radius * math.radians(360 - phi)) for phi, z in zip(p["phi_deg"], p["z_mm"])]
                     for a, b in zip(got, wanted + wanted[:1], strict=True):
                         self.assertLess(math.dist(a[:2], b), 2e-3)
                     openings += 1
+                for [(x, y, diameter, depth)], (_, z, phi, asked) in zip(file.get("BO", []), self.bores(body, result), strict=True):
+                    self.assertAlmostEqual(x, z, delta=2e-3)
+                    off = (y - radius * math.radians(360 - phi)) / (2 * math.pi * radius)
+                    self.assertAlmostEqual(off, round(off), delta=2e-3 / radius)
+                    self.assertEqual((diameter, depth), (asked, 0))
                 self.assertIn("AK: the tube itself, kept within; IK: an opening of it, kept outside", file["comments"])
                 tables = rows_of(file["comments"])
                 self.assertEqual(set(tables), {"start", "finish"} | {f"hole {i}" for i in range(len(result["holes"]))})
@@ -163,8 +171,25 @@ class WholePart(FormatTest):
             file = parse(self.service.text("parts", asked, "format=nc1").decode("ascii"))
             self.assertEqual(file["header"]["piece"], piece)
 
-    def in_order(self, result):
-        return [result["holes"][step["index"]] for step in result["sequence"] if step["what"] == "hole"]
+    def outlines(self, body, result):
+        """The points of every opening that is no bore, in the order of the file."""
+        bores = list(self.bores(body, result))
+        for step in result["sequence"]:
+            if step["what"] == "hole":
+                yield result["holes"][step["index"]]["points"]
+            elif step["what"] == "cutout" and step["index"] not in [index for index, *_ in bores]:
+                yield cutout_points(result, step["index"])
+
+    def bores(self, body, result):
+        """(index, z, phi, diameter) of every circle that a straight drill makes, in the order of the file."""
+        size = {one["id"]: one["shape"].get("diameter_mm") for one in body.get("cutouts", [])}
+        for step in result["sequence"]:
+            if step["what"] == "cutout":
+                group, one = cutouts(result)[step["index"]]
+                if size[group["id"]] and group["wall"] != "developed":
+                    p = cutout_points(result, step["index"])
+                    middle = (min(p["phi_deg"]) + max(p["phi_deg"])) / 2
+                    yield step["index"], one["z_mm"], middle, size[group["id"]]
 
     def test_each_end_carries_its_own_constant_bevel(self):
         plane = {"kind": "plane", "point_mm": [0, 0, 0], "normal": [0, 0, 1]}

@@ -5,7 +5,7 @@ import json
 import math
 import re
 
-from service import HOSTILE, FormatTest, examples, main, seam_row
+from service import HOSTILE, FormatTest, cutout_name, cutout_points, cutouts, examples, main, seam_row
 
 WORD = re.compile(r"([A-Z])(-?\d+\.\d+)")
 TIMED = re.compile(r"^G1 (.*) F\[#<speed_mm_min> / (\d+\.\d+)\]$")
@@ -152,6 +152,10 @@ class PartGcode(FormatTest):
                 p = result["holes"][step["index"]]["points"]
                 rows = list(zip(p["torch_phi_deg"], p["torch_z_mm"], p["b_deg"], p.get("a_deg") or [0] * len(p["b_deg"])))
                 out.append((f"hole {step['index']}", rows + rows[:1]))
+            elif step["what"] == "cutout":
+                p = cutout_points(result, step["index"])
+                rows = list(zip(p["torch_phi_deg"], p["torch_z_mm"], p["b_deg"], p["a_deg"]))
+                out.append((cutout_name(*cutouts(result)[step["index"]]), rows + rows[:1]))
             elif step["what"] in ("finish", "start"):
                 p = result["ends"][step["what"]]["points"]
                 rows = [(phi, z, b, 0) for (phi, z), (_, b) in

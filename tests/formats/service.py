@@ -45,9 +45,16 @@ class Service(Running):
         return json.loads(self.text(endpoint, body, ""))
 
 
-def examples(endpoint):
-    """{name: request}, never empty."""
+def is_round(body):
+    """Returns whether the target, if there is one, is a round tube: only such are drawn."""
+    target = body.get("target", {})
+    return "outer_diameter_mm" in target or target.get("size", "CHS").startswith(("CHS", "NPS"))
+
+
+def examples(endpoint, drawn=True):
+    """{name: request}, never empty; if `drawn`, only those that every format prints."""
     found = {file.stem: json.loads(file.read_text()) for file in sorted((ROOT / "examples" / endpoint).glob("*.json"))}
+    found = {name: body for name, body in found.items() if not drawn or is_round(body)}
     if not found:
         raise AssertionError(f"no examples for {endpoint}")
     return found
@@ -73,6 +80,26 @@ class FormatTest(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.service.stop()
+
+
+def cutout_name(group, instance):
+    """What files call a cut-out of an answer's part."""
+    return f"cut-out {instance['id']}{' far' if group['side'] == 'far' else ''}"
+
+
+def cutout_points(result, index):
+    """The points of a cut-out: those of its group's first instance, moved."""
+    group, one = cutouts(result)[index]
+    turn, along = (one[name] - group["instances"][0][name] for name in ("phi_deg", "z_mm"))
+
+    def moved(name, value):
+        return value + (turn if "phi_" in name else along if "z_" in name else 0)
+    return {name: [moved(name, v) for v in column] for name, column in group["points"].items()}
+
+
+def cutouts(result):
+    """[(group, instance)] of an answer's part."""
+    return [(group, one) for group in result.get("cutouts", []) for one in group["instances"]]
 
 
 def rolled(points, radius):

@@ -9,7 +9,7 @@ import urllib.parse
 import lands_test
 import leads_test
 import torch_program
-from service import FormatTest, examples, main
+from service import FormatTest, cutout_name, cutouts, examples, main
 
 WIDTH, COUNT, MARK_SPEED = 2.5, 3, 3000.0
 TABS = leads_test.LIT | {"tabs": COUNT, "tab_mm": WIDTH, "tabs_of": "all"}
@@ -81,7 +81,11 @@ class Tabs(FormatTest):
         return [(e["pointer"], e["code"]) for e in json.loads(content)["errors"]]
 
     def stretches_of(self, step, result, cuts):
-        name = step["what"] if step["what"] != "hole" else f"hole {step['index']}"
+        name = step["what"]
+        if name == "hole":
+            name = f"hole {step['index']}"
+        if name == "cutout":
+            name = cutout_name(*cutouts(result)[step["index"]])
         return [cut for cut in cuts if cut.name == name or cut.name.startswith((name + ",", name + " "))]
 
     def test_every_tab_holds_and_all_else_is_cut(self):

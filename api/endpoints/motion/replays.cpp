@@ -49,7 +49,6 @@ void decode_segments(Reader& in, Schedule& out) {
 }
 
 Schedule decode_schedule(Reader& in, const motion::Machine& machine, bool part) {
-  if (in.refused()) in.silence();  // its members follow from the machine's axes
   for (const auto* other : {"machine_sha256", "periods", "axes", "idle", "total", "events",
                             "report", "comparison", "segments", "times"})
     in.note(other);
@@ -114,7 +113,9 @@ struct Replays {
   static Spec decode(Reader& in) {
     Spec out;
     out.job = decode_schedule_request(in);
+    const bool known = in.understood("machine");
     out.schedule = in.object("schedule", [&](Reader& s) {
+      if (!known) s.silence();  // its members follow from the machine's axes
       return decode_schedule(s, out.job.machine, std::holds_alternative<PartRequest>(out.job.cut));
     });
     return out;

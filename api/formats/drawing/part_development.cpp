@@ -24,9 +24,19 @@ constexpr Stroke kDimension{.color = "#1d242b", .width = 0.18};
 constexpr std::string_view kMetal = "#eef3f8";
 constexpr Lettering kGrey{.height = 2.2, .color = "#566370"};
 
-std::vector<Place> places_of(const part::Part& part) {
+double tag_width(const Opening& one) { return text_width(one.tag, kTagHeight, true); }
+
+/// `factor`: of the drawing's scale if there must be room for the tags, else 0.
+std::vector<Place> places_of(const part::Part& part, double factor) {
   std::vector<Place> out{place_of(part.start.table), place_of(part.finish.table)};
-  for (const auto& one : openings(part)) out.push_back(place_of(one.rows));
+  for (const auto& one : openings(part)) {
+    auto place = place_of(one.rows);
+    const double wide = factor > 0.0 && one.tagged ? tag_width(one) / factor : 0.0;
+    const double more = std::max(0.0, 0.5 * (wide - (place.z_to - place.z_from)));
+    place.z_from -= more;
+    place.z_to += more;
+    out.push_back(place);
+  }
   for (const auto& mark : part.marks)
     if (mark.kind != part::Mark::Kind::datum_line)
       out.push_back({.z_from = mark.z_from, .z_to = mark.z_to});
@@ -202,8 +212,15 @@ class Stretch {
     if (!tagged) return;
     const auto above = at(place.phi_from + turn, 0.5 * (place.z_from + place.z_to));
     const auto below = at(place.phi_to + turn, 0.5 * (place.z_from + place.z_to));
-    canvas_.text({above.x, above.y + 3.4 < top_.y ? above.y + 0.8 : below.y - 2.8}, tag,
-                 {.height = 2.6, .anchor = Anchor::middle, .bold = true});
+    const DrawingPoint where{above.x, above.y + 3.4 < top_.y ? above.y + 0.8 : below.y - 2.8};
+    const double half = 0.5 * tag_width(openings_[i]);
+    const auto covers = [&](const Cell& other) {
+      return where.x - half < other.high.x && where.x + half > other.low.x &&
+             where.y < other.high.y && where.y + kTagHeight > other.low.y;
+    };
+    if (std::ranges::any_of(tags_, covers)) return;  // its name is in the table
+    tags_.push_back({{where.x - half, where.y}, {where.x + half, where.y + kTagHeight}});
+    canvas_.text(where, tag, {.height = kTagHeight, .anchor = Anchor::middle, .bold = true});
   }
 
   void draw(const part::Mark& mark) {
@@ -236,6 +253,7 @@ class Stretch {
   const part::Part& part_;
   DrawingPoint top_;
   std::vector<Opening> openings_ = openings(part_);
+  std::vector<Cell> tags_;  // drawn so far
 };
 
 /// Annotations next to the segments of a strip.
@@ -365,19 +383,18 @@ DevelopmentPlan plan_development(const part::PartSpec& spec, const part::Part& p
   DevelopmentPlan out{.scale = {}, .opened = opening(part), .girth = {}, .strips = {}};
   out.girth = kTwoPi * spec.target.outer_radius;
   const double room = width - kLeft - kRight;
-  const auto places = places_of(part);
   double longest = 0.0;
-  for (const auto& place : joined(places, 0.0))
+  for (const auto& place : joined(places_of(part, 0.0), 0.0))
     longest = std::max(longest, place.z_to - place.z_from);
   out.scale = drawing_scale(out.girth, kMostGirth);
   if (const auto other = drawing_scale(longest, room - 2.0 * kRoom);
       other.factor < out.scale.factor)
     out.scale = other;
-  auto shown = joined(places, kRoom / out.scale.factor);
+  auto shown = joined(places_of(part, out.scale.factor), kRoom / out.scale.factor);
   const bool grown = std::ranges::any_of(shown, [&](const Place& place) {
     return out.scale.factor * (place.z_to - place.z_from) > room;
   });
-  if (grown) shown = joined(places, 0.0);
+  if (grown) shown = joined(places_of(part, 0.0), 0.0);
   shown.front().z_from = std::min(shown.front().z_from, 0.0);
   out.strips = strips_of(shown, out.scale.factor, room);
   return out;

@@ -53,5 +53,6 @@ struct Opening {
 /// The holes, then the cut-outs. More cut-outs than `kMostTagged` have no tags.
 [[nodiscard]] std::vector<Opening> openings(const part::Part& part);
 inline constexpr std::size_t kMostTagged = 24;
+inline constexpr double kTagHeight = 2.6, kTagRow = 3.4;  // mm, of a tag and of a row of them
 
 }  // namespace tubecut::api

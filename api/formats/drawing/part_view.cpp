@@ -148,6 +148,32 @@ class View {
     return 0.5 * (place.phi_from + place.phi_to);
   }
 
+  struct Tag {
+    const Opening* opening;
+    bool seen;
+    std::string text;  // in brackets if the opening is behind the tube
+  };
+  /// Returns the tags in the order of their places along the tube.
+  [[nodiscard]] std::vector<Tag> tags() const {
+    std::vector<Tag> out;
+    for (const auto& one : openings_) {
+      if (!one.tagged) continue;
+      const auto place = place_of(one.rows);
+      const bool seen = faces(0.5 * (place.phi_from + place.phi_to)) >= 0.1;
+      out.push_back({&one, seen, seen ? one.tag : "(" + one.tag + ")"});
+    }
+    std::ranges::stable_sort(out, {}, [](const Tag& tag) {
+      const auto place = place_of(tag.opening->rows);
+      return place.z_from + place.z_to;
+    });
+    return out;
+  }
+  static double apart(const std::vector<Tag>& tags) {
+    double widest = 5.5;
+    for (const auto& tag : tags) widest = std::max(widest, text_width(tag.text, kTagHeight, true));
+    return widest + 1.5;
+  }
+
   void fit(const Cell& room) {
     double left = 1e300, right = -1e300;
     for (int i = 0; i < kPhases; ++i)
@@ -157,9 +183,13 @@ class View {
         right = std::max(right, p.x);
       }
     const double w = room.high.x - room.low.x - 30.0, h = room.high.y - room.low.y - 12.0;
-    scale_ = std::min(w / (right - left), h / (2.0 * outer_));
+    const auto all = tags();
+    const auto side_by_side = static_cast<std::size_t>(std::max(1.0, w / apart(all)));
+    rows_of_tags_ = std::max<std::size_t>(1, (all.size() + side_by_side - 1) / side_by_side);
+    const double more = kTagRow * static_cast<double>(rows_of_tags_ - 1);
+    scale_ = std::min(w / (right - left), (h - more) / (2.0 * outer_));
     at_ = {0.5 * (room.low.x + room.high.x) - 0.5 * scale_ * (left + right),
-           0.5 * (room.low.y + room.high.y) - 1.0};
+           0.5 * (room.low.y + room.high.y) - 1.0 - 0.5 * more};
     left_ = at_.x + scale_ * left;
     right_ = at_.x + scale_ * right;
     high_ = at_.y + scale_ * outer_;
@@ -282,25 +312,23 @@ class View {
     canvas_.text({right_ + 2.0, at(outer_, 0.0, finish_outer_.at(0.0)).y - 0.8}, "phi 0",
                  {.height = 2.4, .color = kDatum.color});
   }
-  /// Tags in a row above, each with a line to its hole; those behind the tube in brackets.
+  /// Draws the tags in rows above, each with a line to its hole.
   void words() {
-    std::vector<const Opening*> tagged;
-    std::vector<double> wanted;
-    for (const auto& one : openings_) {
-      if (!one.tagged) continue;
-      tagged.push_back(&one);
-      wanted.push_back(middle(one.rows).x);
-    }
-    const auto places = spread(wanted, 7.0, left_, right_);
-    for (std::size_t i = 0; i < tagged.size(); ++i) {
-      const auto& [rows, tag, shown] = *tagged[i];
-      const auto centre = middle(rows);
-      const auto place = place_of(rows);
-      const bool seen = faces(0.5 * (place.phi_from + place.phi_to)) >= 0.1;
-      canvas_.line({places[i], high_ + 2.2}, seen ? centre : DrawingPoint{centre.x, high_},
-                   {.color = "#566370", .width = 0.15});
-      canvas_.text({places[i], high_ + 2.8}, seen ? tag : "(" + tag + ")",
-                   {.height = 2.6, .anchor = Anchor::middle, .bold = true});
+    const auto all = tags();
+    for (std::size_t row = 0; row < rows_of_tags_; ++row) {
+      std::vector<double> wanted;
+      for (auto i = row; i < all.size(); i += rows_of_tags_)
+        wanted.push_back(middle(all[i].opening->rows).x);
+      const auto places = spread(wanted, apart(all), left_, right_);
+      const double low = high_ + 2.2 + kTagRow * static_cast<double>(row);
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        const auto& tag = all[row + k * rows_of_tags_];
+        const auto centre = middle(tag.opening->rows);
+        canvas_.line({places[k], low}, tag.seen ? centre : DrawingPoint{centre.x, high_},
+                     {.color = "#566370", .width = 0.15});
+        canvas_.text({places[k], low + 0.6}, tag.text,
+                     {.height = kTagHeight, .anchor = Anchor::middle, .bold = true});
+      }
     }
     auto right = kWord;
     right.anchor = Anchor::end;
@@ -321,6 +349,7 @@ class View {
   RoundEdge start_outer_, start_inner_, finish_outer_, finish_inner_;
   double roll_;
   double scale_ = 1.0, left_ = 0.0, right_ = 0.0, high_ = 0.0;
+  std::size_t rows_of_tags_ = 1;
   DrawingPoint at_;
 };
 

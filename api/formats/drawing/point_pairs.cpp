@@ -89,7 +89,7 @@ class Pairs {
 std::vector<std::string> notes(const TorchJob& job, const Caption& caption) {
   auto out = verdict_lines(caption.verdict, {.plain = true});
   out.emplace_back(caption.options.torch ? "THIS PROGRAM LIGHTS THE TORCH"
-                                         : "dry run: the torch stays off; torch=on lights it");
+                                         : "dry run: the torch stays off, torch=on lights it");
   for (const auto* lines : {&job.lengths, &job.process, &job.by_hand})
     out.insert(out.end(), lines->begin(), lines->end());
   return out;

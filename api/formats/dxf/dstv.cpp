@@ -205,6 +205,18 @@ std::string opening(const CutOutline& hole, double bevel_deg, const std::stop_to
   return out;
 }
 
+std::string wall_words(cutout::Lay lay) {
+  switch (lay) {
+    case cutout::Lay::developed:
+      return "square to the tube";
+    case cutout::Lay::prism:
+      return "its walls parallel";
+    case cutout::Lay::bored:
+      return "square to the tube, a straight tool passes";
+  }
+  return {};
+}
+
 /// A circle that goes straight through as a bore where a drill makes it; else its outer edge.
 std::string cutout_block(const part::PartSpec& spec, const part::Part& part, std::size_t index,
                          const CutOutline& cut, const std::stop_token& stop) {
@@ -213,8 +225,7 @@ std::string cutout_block(const part::PartSpec& spec, const part::Part& part, std
   const auto& mould = part.cutouts.mould_of(one);
   const auto& asked = spec.cutouts.all[one.asked];
   const auto* circle = std::get_if<cutout::Circle>(&asked.shape);
-  auto out =
-      comment("cutout " + dstv_text(cut.label) + " " + std::string(name_of(mould.laying.lay())));
+  auto out = comment("cut-out " + dstv_text(cut.label) + ", " + wall_words(mould.laying.lay()));
   if (circle == nullptr || asked.wall == cutout::Wall::developed || circle->diameter > kLargestBore)
     return out + opening(cut, 0.0, stop);
   const double middle = turned_from(0.0, one.phi + mould.laying.phase(0.0));

@@ -191,7 +191,7 @@ std::string gcode_job(const Caption& caption) {
 std::string gcode_torch(const FormatOptions& options) {
   return post_of(options).comment(options.torch
                                       ? "THIS PROGRAM LIGHTS THE TORCH"
-                                      : "dry run: the torch stays off; torch=on lights it");
+                                      : "dry run: the torch stays off, torch=on lights it");
 }
 
 std::string gcode_hashes(const Caption& caption) {

@@ -116,7 +116,8 @@ class Known {
         if (!of) continue;
         had.add(property);
         const any = fromSchema(this.contract, of.request).filter((inner) => !('accept' in inner) && of.validRequest(inner));
-        for (const inner of drawn(any, seed, NESTED)) yield {...structuredClone(body), [name]: inner};
+        // Examples first: a drawn request may have more errors than an answer lists, and the list then has none of the body around it.
+        for (const inner of [...of.examples.map((example) => example.body), ...drawn(any, seed, NESTED)]) yield {...structuredClone(body), [name]: structuredClone(inner)};
       }
     }
   }
