@@ -44,41 +44,6 @@ std::vector<Place> places_of(const part::Part& part, double factor) {
   return out;
 }
 
-/// Merges ranges that overlap when `room` is added on both sides.
-std::vector<Place> joined(const std::vector<Place>& places, double room) {
-  std::vector<Place> out;
-  for (auto place : places) {
-    place.z_from -= room;
-    place.z_to += room;
-    if (!out.empty() && place.z_from <= out.back().z_to)
-      out.back().z_to = std::max(out.back().z_to, place.z_to);
-    else
-      out.push_back(place);
-  }
-  return out;
-}
-
-/// A phase off all holes: 0, else of the multiples of 15 deg the one furthest from them.
-double opening(const part::Part& part) {
-  const auto all = openings(part);
-  const auto off = [&](double phi) {
-    double least = kPi;
-    for (const auto& one : all) {
-      const auto place = place_of(one.rows);
-      const double after = turned_from(place.phi_from, phi) - place.phi_from;
-      const double width = place.phi_to - place.phi_from;
-      least = std::min(least, after <= width ? -1.0 : std::min(after - width, kTwoPi - after));
-    }
-    return least;
-  };
-  constexpr double kStep = 15.0 * kRadPerDeg;
-  double best = 0.0;
-  if (off(0.0) > 0.0) return best;
-  for (int i = 1; i < 24; ++i)
-    if (off(kStep * i) > off(best) + 1e-9) best = kStep * i;
-  return best;
-}
-
 std::vector<DevelopmentPlan::Strip> strips_of(const std::vector<Place>& places, double scale,
                                               double room) {
   std::vector<DevelopmentPlan::Strip> out(1);
@@ -380,7 +345,7 @@ class Beside {
 double DevelopmentPlan::height() const { return kAbove + scale.factor * girth + kBelow; }
 
 DevelopmentPlan plan_development(const part::PartSpec& spec, const part::Part& part, double width) {
-  DevelopmentPlan out{.scale = {}, .opened = opening(part), .girth = {}, .strips = {}};
+  DevelopmentPlan out{.scale = {}, .opened = phase_off_openings(part), .girth = {}, .strips = {}};
   out.girth = kTwoPi * spec.target.outer_radius;
   const double room = width - kLeft - kRight;
   double longest = 0.0;

@@ -72,4 +72,37 @@ std::vector<Opening> openings(const part::Part& part) {
   return out;
 }
 
+std::vector<Place> joined(const std::vector<Place>& places, double room) {
+  std::vector<Place> out;
+  for (auto place : places) {
+    place.z_from -= room;
+    place.z_to += room;
+    if (!out.empty() && place.z_from <= out.back().z_to)
+      out.back().z_to = std::max(out.back().z_to, place.z_to);
+    else
+      out.push_back(place);
+  }
+  return out;
+}
+
+double phase_off_openings(const part::Part& part) {
+  const auto all = openings(part);
+  const auto off = [&](double phi) {
+    double least = kPi;
+    for (const auto& one : all) {
+      const auto place = place_of(one.rows);
+      const double after = turned_from(place.phi_from, phi) - place.phi_from;
+      const double width = place.phi_to - place.phi_from;
+      least = std::min(least, after <= width ? -1.0 : std::min(after - width, kTwoPi - after));
+    }
+    return least;
+  };
+  constexpr double kStep = 15.0 * kRadPerDeg;
+  double best = 0.0;
+  if (off(0.0) > 0.0) return best;
+  for (int i = 1; i < 24; ++i)
+    if (off(kStep * i) > off(best) + 1e-9) best = kStep * i;
+  return best;
+}
+
 }  // namespace tubecut::api

@@ -55,4 +55,9 @@ struct Opening {
 inline constexpr std::size_t kMostTagged = 24;
 inline constexpr double kTagHeight = 2.6, kTagRow = 3.4;  // mm, of a tag and of a row of them
 
+/// Merges ranges, ascending, that overlap when `room` is added on both sides.
+[[nodiscard]] std::vector<Place> joined(const std::vector<Place>& places, double room);
+/// Returns a phase off all openings: 0, else of the multiples of 15 deg the one furthest from them.
+[[nodiscard]] double phase_off_openings(const part::Part& part);
+
 }  // namespace tubecut::api

@@ -181,7 +181,7 @@ test('DXF: clockwise bulges, units and what is not understood', () => {
   for (const units of [undefined, 0]) {
     const without = drawing(units, line('B4', 'CHORD', [0, 0, 0], [10, 0, 0]));
     assert.equal(fromDxf(without, sizes).frame, null);
-    assert.match(fromDxf(without, sizes).notUnderstood[0].reason, /does not tell its unit/);
+    assert.match(fromDxf(without, sizes).notUnderstood[0].reason, /does not state its unit/);
     assert.deepEqual(fromDxf(without, sizes, {unit: 'm'}).frame.members[0].end_mm, [10000, 0, 0]);
   }
   const circle = pair([0, 'CIRCLE'], [5, 'C1'], [8, 'CHORD'], [10, 0], [20, 0], [40, 5]);
