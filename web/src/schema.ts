@@ -24,6 +24,7 @@ export interface Schema {
   maxItems?: number;
   items?: Schema;
   oneOf?: Schema[];
+  anyOf?: Schema[];
   allOf?: Schema[];
   required?: string[];
   properties?: Record<string, Schema>;
@@ -137,6 +138,10 @@ export class Contract {
 
   resolve(schema: Schema | boolean): Schema {
     if (typeof schema === 'boolean') return {}; // anything
+    if (schema.anyOf) {
+      const {anyOf, ...rest} = schema; // a form shows one branch, whether or not others would fit too
+      return {...rest, oneOf: anyOf};
+    }
     if (!schema.$ref) return schema;
     const {$ref, ...beside} = schema;
     return {...this.resolve(this.document.components.schemas[$ref.split('/').pop() as string] ?? {}), ...beside};

@@ -154,7 +154,7 @@ export const checks = {
     await page.locator('[data-question=unit]').selectOption('in');
     for (const [field, column] of Object.entries(columns).slice(0, 2)) await page.locator(`[data-question=${field}]`).selectOption(column);
     await then(page, () => page.locator('[data-question=wall]').selectOption(columns.wall));
-    assert.match(await page.locator('#imported-said').innerText(), /^2 members\. Nothing was left out\./);
+    assert.match(await page.locator('#imported-said').innerText(), /^2 members\. Nothing was omitted\./);
     const {members} = await request(page);
     assert.deepEqual(members, [
       {id: 'A', start_mm: [0, 0, 0], end_mm: [1016, 0, 0], outer_diameter_mm: 88.9, wall_mm: 5.08},
@@ -200,7 +200,7 @@ export const checks = {
   'a file that cannot be read leaves the job as it was': async ({browser, origin}) => {
     const page = await frames(browser, origin);
     const before = await request(page);
-    for (const [name, text, said] of [['bad.ifc', 'no model', /No member was found/], ['bad.dxf', '', /It cannot be read/], ['bad.step', 'x', /none of \.ifc, \.pcf, \.csv, \.dxf, \.tsv, \.txt/]]) {
+    for (const [name, text, said] of [['bad.ifc', 'no model', /No member was found/], ['bad.dxf', '', /It cannot be read/], ['bad.step', 'x', /is not one of \.ifc, \.pcf, \.csv, \.dxf, \.tsv, \.txt/]]) {
       const count = await answers(page);
       await choose(page, name, text);
       await page.locator('#imported', {hasText: said}).waitFor();
