@@ -77,7 +77,7 @@ export async function drawn(page, ratio) {
   if (await page.locator('#trouble').isVisible()) return [await page.locator('#trouble').innerText()];
   if (solid) {
     const {share} = await pixels(page, ratio);
-    if (share < 0.02) return [`${share} of the 3D canvas is covered`];
+    if (share < 0.005) return [`${share} of the 3D canvas is covered`];
   }
   return solid || (points.length && points.every((count) => count > 1)) ? [] : ['no picture'];
 }

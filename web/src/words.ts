@@ -13,6 +13,7 @@ const units: [string, string][] = [
   ['rad_per_mm', 'rad/mm'],
   ['_deg_mm', '° mm'],
   ['_kg_m3', 'kg/m³'],
+  ['_kg_per_m', 'kg/m'],
   ['_per_hour', '1/h'],
   ['_rev_min', '1/min'],
   ['_mm_min', 'mm/min'],

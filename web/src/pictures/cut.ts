@@ -6,6 +6,7 @@ import type {Context} from './context';
 import {at, figure, plural, readings} from './facts';
 import {gapChart, gapFigures, gapsOf, gapScale} from './gaps';
 import {bounds, partner, radians, tube, type Sizes} from './geometry';
+import {ofSection, sectionCut} from './section';
 
 interface Joint {
   outer: number;
@@ -285,6 +286,7 @@ function readout(points: Row, names: string[], i: number): [Term, string][] {
 }
 
 export async function intersection(_: Row, answer: Answer, context: Context): Promise<Picture> {
+  if (ofSection(answer.result)) return sectionCut(answer, context);
   const given = await joint(answer.request, context);
   const profiles = answer.result['profiles'] as Row[];
   const bySurface = (surface: string) => profiles.find((p) => p['surface'] === surface) ?? (profiles[0] as Row);
