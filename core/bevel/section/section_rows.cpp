@@ -1,0 +1,378 @@
+#include "core/bevel/section/section_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
+#include "core/bevel/table/required.hpp"
+#include "core/joint/section/section_length.hpp"
+
+namespace tubecut::bevel::detail {
+namespace {
+
+using section::Station;
+
+constexpr double kSamePlace = 1e-9;  // mm: two stops so near are one
+constexpr double kSameRow = 1e-6;    // mm
+constexpr double kBeside = 1e-4;     // rad, of the place where a kink's side is looked at
+constexpr double kWidestTurn = 10.0 * kRadPerDeg;
+constexpr double kWidestShare = 1.0 / 36.0;
+constexpr int kProbes = 7, kHalvings = 40;
+constexpr double kSilhouette = 1e-12;  // axial part of a normal that is none
+
+bool is_set_in(const TableSpec& spec, std::size_t partner) {
+  const auto& stated = stated_joint(spec, partner);
+  return stated && stated->kind == joint::JointKind::set_in;
+}
+
+/// What is not offered for a section.
+Result<void> check(const section::Section& section, const TableSpec& spec) {
+  const auto refused = [](std::string member, std::string hint) {
+    return fail({.code = ErrorCode::unsupported_combination,
+                 .member = std::move(member),
+                 .hint = std::move(hint)});
+  };
+  if (spec.dihedral != Dihedral::weld_side)
+    return refused("dihedral", "a target that is not round has weld_side alone");
+  if (std::holds_alternative<HermiteSmoothing>(spec.smoothing))
+    return refused("smoothing/method", "a target that is not round has envelope or none");
+  if (const auto* zoned = std::get_if<ZonedGroove>(&spec.groove); zoned && zoned->has_root_gaps())
+    return refused("groove/zones", "root gaps of zones go with a round target");
+  if (spec.root_face > 0.0 && spec.contact != Contact::inner)
+    return refused("root_face", "a root face goes with contact inner");
+  const bool reached = spec.torch.min.rad() <= 0.0 && spec.torch.max.rad() >= 0.0;
+  if (spec.untilted && !reached) return refused("torch", "an untilted head cuts B = 0 alone");
+  if (!(spec.root_face >= 0.0 && spec.root_face < section.wall))
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "root_face",
+                 .got = spec.root_face,
+                 .limit = section.wall,
+                 .unit = "mm",
+                 .hint = "must be less than the wall"});
+  const double narrow = std::min(section.height, section.width) / 2.0;
+  if (!(spec.kerf < narrow) || (spec.kerf > 0.0 && spec.kerf < kGougeLimit))
+    return fail({.code = ErrorCode::out_of_range,
+                 .member = "kerf",
+                 .got = spec.kerf,
+                 .limit = spec.kerf < narrow ? kGougeLimit : narrow,
+                 .unit = "mm",
+                 .hint = "0, or from the narrowest beam to less than half the smaller side"});
+  return check_groove(spec.groove);
+}
+
+/// Makes the rows of one table.
+class Maker {
+ public:
+  explicit Maker(const SectionSetup& g)
+      : g_(g), outline_(g.wall.outer()), girth_(outline_.girth()) {
+    events_from(g.inner, false);
+    events_from(g.outer, true);
+    for (const double s : outline_.seams()) stops_.push_back(s);
+    for (const double s : g.wall.bore().seams())
+      stops_.push_back(g.wall.outside_of(g.wall.bore().at(s)));
+  }
+
+  Result<std::vector<SectionRow>> make(std::span<const double> also) {
+    const auto& sampling = g_.spec.sampling;
+    if (!sampling.tolerance) {
+      add_grid(sampling.uniform_points);
+    } else {
+      stops_.insert(stops_.end(), also.begin(), also.end());
+      for (std::size_t i = 0; i < sampling.uniform_points; ++i)
+        stops_.push_back(girth_ * static_cast<double>(i) /
+                         static_cast<double>(sampling.uniform_points));
+      tidy_stops();
+      for (std::size_t k = 0; k < stops_.size(); ++k) {
+        add_stop(stops_[k]);
+        const double to = k + 1 < stops_.size() ? stops_[k + 1] : stops_[0] + girth_;
+        refine(stops_[k], to);
+        if (rows_.size() > sampling.max_nodes) break;
+      }
+      std::ranges::stable_sort(rows_, {}, [](const SectionRow& r) { return r.at.s; });
+    }
+    if (rows_.size() > sampling.max_nodes)
+      return fail({.code = ErrorCode::too_many_nodes,
+                   .member = "sampling",
+                   .got = static_cast<double>(rows_.size()),
+                   .limit = static_cast<double>(sampling.max_nodes)});
+    return std::move(rows_);
+  }
+
+ private:
+  struct RootEvent {
+    double s;  // outside
+    const joint::SectionEvent* event;
+  };
+  /// Not the datum's far side.
+  [[nodiscard]] double turned(double s) const {
+    const double out = s - girth_ * std::floor(s / girth_);
+    return out < girth_ ? out : 0.0;
+  }
+  [[nodiscard]] double distance(double a, double b) const {
+    const double d = std::abs(turned(a) - turned(b));
+    return std::min(d, girth_ - d);
+  }
+
+  void events_from(const joint::SectionContour& contour, bool outer) {
+    for (const auto& event : contour.events) {
+      const double s = outer ? event.s : g_.wall.outside_of(contour.curve.at(event.s));
+      stops_.push_back(s);
+      if (outer == g_.root_outside() && event.kind != joint::SectionEventKind::seam)
+        root_events_.push_back({turned(s), &event});
+    }
+  }
+
+  void tidy_stops() {
+    for (double& s : stops_) s = turned(s);
+    std::ranges::sort(stops_);
+    std::vector<double> kept;
+    for (const double s : stops_) {
+      const auto near = [&](double other) { return distance(s, other) <= kSamePlace; };
+      if (kept.empty() || (!near(kept.back()) && !near(kept.front()))) kept.push_back(s);
+    }
+    stops_ = std::move(kept);
+    if (stops_.empty()) stops_.push_back(0.0);
+  }
+
+  [[nodiscard]] const joint::SectionEvent* event_at(double s) const {
+    for (const auto& one : root_events_)
+      if (distance(one.s, s) <= kSamePlace) return one.event;
+    return nullptr;
+  }
+
+  [[nodiscard]] SectionRow row_at(double s, std::size_t cutter) const {
+    SectionRow row{.at = outline_.at(s), .across = {}, .point = {}};
+    row.across = g_.wall.across(row.at);
+    row.before = row.after = cutter;
+    row.z = g_.root().height(cutter, g_.root_station(row.at));
+    return row;
+  }
+
+  void add_stop(double s) {
+    const auto* event = event_at(s);
+    auto row = row_at(s, joint::contact_at(g_.root(), g_.root_station(outline_.at(s))).cutter);
+    if (event == nullptr) return rows_.push_back(row);
+    row.corner = true;
+    row.before = event->from;
+    row.after = event->to;
+    row.z = event->z_from;
+    if (event->kind != joint::SectionEventKind::jump) return rows_.push_back(row);
+    row.jump = true;
+    row.after = event->from;
+    rows_.push_back(row);
+    row.z = event->z_to;
+    row.before = row.after = event->to;
+    rows_.push_back(row);
+  }
+
+  void add_grid(std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const double s = girth_ * static_cast<double>(i) / static_cast<double>(n);
+      const auto contact = joint::contact_at(g_.root(), g_.root_station(outline_.at(s)));
+      auto row = row_at(s, contact.cutter);
+      row.z = contact.z;
+      const auto* event = event_at(s);
+      if (event != nullptr && event->kind != joint::SectionEventKind::jump) {
+        row.corner = true;
+        row.before = event->from;
+        row.after = event->to;
+      }
+      rows_.push_back(row);
+    }
+  }
+
+  [[nodiscard]] Eigen::Vector3d placed(double s, std::size_t cutter) const {
+    const auto outside = outline_.at(s);
+    const auto own = g_.root_station(outside);
+    const double z = g_.root().height(cutter, own);
+    if (g_.spec.sampling.tolerance->metric == joint::Metric::developed) {
+      const double girth = g_.root().curve.girth();
+      // Along the stretch, over the datum too.
+      const double turns = std::floor(s / girth_);
+      return {own.s + turns * girth, z, 0.0};
+    }
+    return {own.point.x(), own.point.y(), z};
+  }
+
+  void refine(double from, double to) {
+    const double middle = 0.5 * (from + to);
+    const auto own = g_.root_station(outline_.at(middle));
+    const auto cutter = joint::contact_at(g_.root(), own).cutter;
+    const double curvature = outline_.at(middle).curvature;
+    const double widest = curvature > 0.0 ? kWidestTurn / curvature : kWidestShare * girth_;
+    const int parts = std::max(1, static_cast<int>(std::ceil((to - from) / widest - 1e-9)));
+    double left = from;
+    for (int k = 1; k <= parts; ++k) {
+      const double right = k == parts ? to : from + (to - from) * k / parts;
+      halve(cutter, left, right, kHalvings);
+      if (k < parts) rows_.push_back(row_at(right, cutter));
+      left = right;
+    }
+  }
+
+  [[nodiscard]] bool straight(std::size_t cutter, double a, double b) const {
+    const Eigen::Vector3d from = placed(a, cutter);
+    const Eigen::Vector3d way = placed(b, cutter) - from;
+    const double length = way.norm();
+    if (!(length > 0.0)) return true;
+    const Eigen::Vector3d along = way / length;
+    for (int k = 1; k <= kProbes; ++k) {
+      const Eigen::Vector3d to = placed(a + (b - a) * k / (kProbes + 1), cutter) - from;
+      if ((to - to.dot(along) * along).norm() > g_.spec.sampling.tolerance->value) return false;
+    }
+    return true;
+  }
+
+  void halve(std::size_t cutter, double a, double b, int halvings) {
+    if (halvings == 0 || b - a < kSameRow || rows_.size() > g_.spec.sampling.max_nodes ||
+        straight(cutter, a, b))
+      return;
+    const double mid = 0.5 * (a + b);
+    halve(cutter, a, mid, halvings - 1);
+    rows_.push_back(row_at(mid, cutter));
+    halve(cutter, mid, b, halvings - 1);
+  }
+
+  const SectionSetup& g_;
+  const section::Curve& outline_;
+  double girth_;
+  std::vector<double> stops_;
+  std::vector<RootEvent> root_events_;
+  std::vector<SectionRow> rows_;
+};
+
+/// The partner's normal seen in the root surface's own frame, and that frame's lean against the
+/// row's: n_root = cos n + sin t.
+struct RootNormal {
+  Eigen::Vector3d normal;
+  double slope;  // dz along the root's own outline
+  double cos, sin;
+};
+RootNormal root_normal(const SectionSetup& g, const SectionRow& row, std::size_t cutter,
+                       double beside) {
+  auto own = g.root_station(row.at);
+  if (beside != 0.0) own = g.root().curve.at(own.s + beside);
+  // Concentric corners have one normal, where the bore has no corner radius too.
+  if (!g.root_outside() && g.wall.concentric()) {
+    own.normal = row.at.normal;
+    own.nu = row.at.nu;
+  }
+  const auto hit = g.root().hit(cutter, own);
+  const auto& n = row.at.normal;
+  return {hit.normal, hit.z_dphi, n.dot(own.normal),
+          n.x() * own.normal.y() - n.y() * own.normal.x()};
+}
+
+/// B of the groove's surface, which holds the root's tangent and makes the groove's angle with the
+/// partner, in the plane of the row's normal.
+void lean(const RootNormal& at, bool square, Angles& out) {
+  const auto turn = elementary::sincos(out.gamma), rule = elementary::sincos(out.groove);
+  const auto& n = at.normal;
+  const Eigen::Vector3d along(turn.cos * n.z() + turn.sin * n.y(), -turn.sin * n.x(),
+                              -turn.cos * n.x());
+  const Eigen::Vector3d m = rule.cos * n - rule.sin * along;
+  out.flush = elementary::atan2(-(at.cos * n.x() - at.sin * n.y()), n.z());
+  if (!square) out.b = elementary::atan2(-(at.cos * m.x() - at.sin * m.y()), m.z());
+}
+
+double input_of(const TableSpec& spec, const SectionPoint& p) {
+  const bool square = std::holds_alternative<SquareCut>(spec.groove);
+  const bool floored =
+      spec.contact == Contact::inner || (spec.contact == Contact::automatic && !square);
+  return floored ? std::min(std::max(p.raw, p.required), spec.torch.max.rad()) : p.raw;
+}
+
+SectionPoint point(const SectionSetup& g, const SectionRow& row, std::size_t cutter,
+                   double beside) {
+  const bool square = std::holds_alternative<SquareCut>(g.spec.groove);
+  const bool set_in = is_set_in(g.spec, cutter) && !g.spec.untilted;
+  const auto at = root_normal(g, row, cutter, beside);
+  SectionPoint out;
+  // The dihedral counts from the row's own outside, gamma along the root.
+  const auto& n = at.normal;
+  out.angles =
+      (set_in ? g.flush : g.rule)
+          .angles({at.cos * n.x() - at.sin * n.y(), at.sin * n.x() + at.cos * n.y(), n.z()});
+  const bool grazes = std::abs(n.z()) <= kSilhouette;
+  if (grazes && std::isfinite(at.slope))
+    out.angles.gamma = -elementary::atan(at.slope);
+  else if (at.sin != 0.0)
+    out.angles.gamma = elementary::atan2(n.y(), n.z());
+  if (grazes || at.sin != 0.0) lean(at, square && !set_in, out.angles);
+  out.raw = std::clamp(out.angles.b, g.spec.torch.min.rad(), g.spec.torch.max.rad());
+  const auto view = local_view(g, row.at, row.across.wall);
+  const double f = g.spec.root_face;
+  if (f > 0.0) {
+    const double edge = view.wall.inner + f;
+    out.face = std::max(
+        0.0, required_bevel(view.cutters, {view.wall.inner, edge}, view.inner, row.bore_z));
+    const double slope = elementary::tan(std::min(out.face, g.spec.torch.max.rad()));
+    out.required =
+        required_bevel(view.cutters, {edge, view.wall.outer},
+                       {edge, view.inner.cos_phi, view.inner.sin_phi}, row.bore_z + f * slope);
+  } else {
+    out.required = required_bevel(view.cutters, view.wall, view.inner, row.bore_z);
+  }
+  out.input = input_of(g.spec, out);
+  return out;
+}
+
+void fill(const SectionSetup& g, SectionRow& row) {
+  row.bore_z = g.root_outside() ? joint::contact_at(g.inner, row.across.bore).z : row.z;
+  row.cutter = row.before;
+  if (!row.corner || row.jump) {
+    row.point = point(g, row, row.before, 0.0);
+    return;
+  }
+  // The side of an event with the larger input counts; a kink's sides are those beside it.
+  const bool kink = row.before == row.after;
+  const double beside = kink ? kBeside * std::max(g.root().curve.corner(), 1.0) : 0.0;
+  const auto first = point(g, row, row.before, -beside), second = point(g, row, row.after, beside);
+  row.point = first.input >= second.input ? first : second;
+  row.cutter = first.input >= second.input ? row.before : row.after;
+}
+
+}  // namespace
+
+LocalView local_view(const SectionSetup& g, const Station& at, double wall) {
+  const double radius = g.wall.outer().reach();
+  return {joint::seen_from(g.inner.cutters, at.point - radius * at.normal),
+          {radius - wall, radius},
+          {radius - wall, at.normal.x(), at.normal.y()}};
+}
+
+Result<SectionSetup> set_up(const section::Section& section, const TableSpec& spec,
+                            const std::stop_token& stop) {
+  TRY(check(section, spec));
+  TRY(auto cutters, grown_partners(spec));
+  section::Wall wall(section);
+  TRY(auto inner, joint::trace(cutters, wall.bore(), stop));
+  TRY(auto outer, joint::trace(cutters, wall.outer(), stop));
+  SectionSetup out{.spec = spec,
+                   .wall = wall,
+                   .cutters = std::move(cutters),
+                   .solids = {},
+                   .inner = std::move(inner),
+                   .outer = std::move(outer),
+                   .rule = Rule(spec.groove, spec.dihedral),
+                   .flush = Rule(NoGroove{}, spec.dihedral)};
+  for (const auto& cutter : out.cutters) out.solids.emplace_back(cutter);
+  return out;
+}
+
+Result<SectionRows> section_rows(const SectionSetup& g, std::span<const double> also) {
+  SectionRows out;
+  TRY(out.rows, Maker(g).make(also));
+  std::vector<double> places;
+  for (auto& row : out.rows) {
+    fill(g, row);
+    places.push_back(g.root_station(row.at).s);
+  }
+  const auto lengths = joint::lengths_along(g.root(), places);
+  for (std::size_t i = 0; i < out.rows.size(); ++i) out.rows[i].length = lengths[i];
+  out.true_length = lengths.back();
+  return out;
+}
+
+}  // namespace tubecut::bevel::detail

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "core/bevel/section/section_table.hpp"
+
+namespace tubecut::bevel {
+
+/// The finished surface of a section's cut: between two rows each edge runs straight in (s, z), and
+/// at each s the wall is straight from edge to edge.
+class SectionSurface {
+ public:
+  SectionSurface(const section::Wall& wall, const TableSpec& spec, const SectionTable& table)
+      : wall_(wall), spec_(spec), table_(table) {}
+
+  /// The edges at a share of the way from row i to the next.
+  struct Line {
+    section::Station at;
+    double wall = 0.0;
+    double inner = 0.0, outer = 0.0;  // z
+    double face = 0.0;                // z at the land's outer edge; without one that of the bore
+
+    /// tan B, and z on the outside of the bevel's line.
+    [[nodiscard]] double slope(double land) const { return (outer - face) / (wall - land); }
+  };
+  [[nodiscard]] Line line(std::size_t row, double share) const;
+  /// At a place s that lies between row `row` and the next.
+  [[nodiscard]] Line line_at(std::size_t row, double s) const;
+  /// The row before s ([0, girth)), or the last.
+  [[nodiscard]] std::size_t row_before(double s) const;
+  /// At a depth below the outside, mm.
+  [[nodiscard]] double z(const Line& line, double depth) const;
+  [[nodiscard]] static Eigen::Vector3d place(const Line& line, double depth, double z) {
+    const Eigen::Vector2d p = line.at.point - depth * line.at.normal;
+    return {p.x(), p.y(), z};
+  }
+  [[nodiscard]] double width(std::size_t row) const;
+  [[nodiscard]] std::size_t next(std::size_t row) const {
+    return row + 1 < table_.at.size() ? row + 1 : 0;
+  }
+  [[nodiscard]] double land() const { return spec_.root_face; }
+  [[nodiscard]] const section::Wall& wall() const { return wall_; }
+
+ private:
+  const section::Wall& wall_;
+  const TableSpec& spec_;
+  const SectionTable& table_;
+};
+
+/// How far below the finished line the axis of a round beam must run at a place between rows so
+/// that the beam leaves the finished part untouched, mm along z.
+/// Source  docs/theory/sections.md, section 5.
+[[nodiscard]] double needed_drop(const SectionSurface& surface, std::size_t row, double share,
+                                 double kerf);
+
+/// By how much the finished surface enters a solid: the deepest of the places looked at in the gap
+/// after a row, ends included.
+[[nodiscard]] SectionTable::Deepest deepest_in_gap(const SectionSurface& surface, std::size_t row,
+                                                   const std::vector<joint::Solid>& solids);
+
+}  // namespace tubecut::bevel
