@@ -6,15 +6,18 @@
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
+#include "api/endpoints/section_bevel_table.hpp"
 #include "api/endpoints/work.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/drawing/partner_names.hpp"
 #include "api/formats/gcode/gcode.hpp"
+#include "api/formats/section_formats.hpp"
 #include "api/formats/step/step.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/beam/beam.hpp"
+#include "core/bevel/section/section_table.hpp"
 #include "core/bevel/table/table.hpp"
 
 namespace tubecut::api {
@@ -23,9 +26,13 @@ namespace {
 static_assert(limit::kerf_pairs_max == bevel::kMostKerfPairs);
 
 struct BevelTables {
-  using Spec = BevelTableRequest;
+  struct Spec : BevelTableRequest {
+    std::optional<SectionTarget> section = {};  // of a target that is not round
+  };
+  /// The table of a round target, or of a section.
   struct Out : bevel::Table {
     std::optional<EndReport> laser = {};
+    std::optional<bevel::SectionTable> of_section = {};
   };
   static constexpr std::string_view kId = "bevel-tables";
   static constexpr std::string_view kPath = "/v1/bevel-tables";
@@ -34,37 +41,46 @@ struct BevelTables {
   static constexpr auto kAccepts =
       joined(std::array<std::string_view, 3>{"max_root_gap_mm", "max_extra_bevel_deg", "max_b_deg"},
              kEndAccepts);
-  static constexpr auto kChecks = kTableChecks;
+  static constexpr auto kChecks =
+      joined(kTableChecks, std::array<CheckLimit, 1>{{{"on_section", "1e-9", "mm"}}});
 
   static Spec decode(Reader& in) {
     Spec out;
+    if (!has_section_target(in)) return {decode_bevel_table_request(in)};
     out.preset = decode_preset(in);
     check_accepts(in, out.preset);
-    out.source = decode_joint(in);
-    out.sampling = decode_sampling(in);
-    decode_table_options(in, out.preset, out);
-    out.columns = decode_table_columns(in, out);
+    out.section = decode_section_cut(in, out);
     return out;
   }
 
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
-    return api::resolve(std::move(spec), stop);
+    auto section = std::move(spec.section);
+    TRY(auto resolved, api::resolve(BevelTableRequest(std::move(spec)), stop));
+    return Spec{std::move(resolved), std::move(section)};
   }
   static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
+    if (spec.section) {
+      TRY(auto table, bevel::section_table(spec.section->section, spec, stop));
+      Out out;
+      out.of_section = std::move(table);
+      return out;
+    }
     TRY(auto table, on_node(spec.source, bevel::table(spec, stop)));
     Out out{std::move(table)};
     if (spec.preset == Preset::tube_laser) out.laser = end_report(spec, out, false, stop);
     return out;
   }
   static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
+    if (spec.section) return bevel::verify(spec.section->section, spec, *out.of_section, stop);
     return bevel::verify(spec, out, stop);
   }
   static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
-    return on_node(spec.source, out.warnings);
+    return on_node(spec.source, out.of_section ? out.of_section->warnings : out.warnings);
   }
 
-  static std::vector<Measure> measure(const Spec&, const Out& out) {
+  static std::vector<Measure> measure(const Spec& spec, const Out& out) {
+    if (out.of_section) return measures_of(spec, *out.of_section);
     double gap = 0.0, extra = 0.0, b = 0.0;
     for (std::size_t i = 0; i < out.b.size(); ++i) {
       gap = std::max(gap, out.gap[i]);
@@ -80,16 +96,22 @@ struct BevelTables {
   }
 
   static void encode(const Spec& spec, const Out& out, Writer& w) {
+    if (spec.section) {
+      encode_section(*spec.section, w);
+      return encode_table(spec, *out.of_section, spec.columns, w);
+    }
     encode_table(spec, out, spec.columns, w);
     if (spec.source.node) w.column("cutter_ids", cutter_ids(spec.source));
     if (out.laser) encode_end_report(out, *out.laser, w);
   }
 
   static std::string print_csv(const Spec& spec, const Out& out, const Caption& caption) {
+    if (spec.section) return section_bevel_csv(spec, *out.of_section, spec.columns, caption);
     return bevel_table_csv(spec, out, spec.columns, caption);
   }
   template <auto Print>
   static std::string print(const Spec& spec, const Out& out, const Caption& caption) {
+    if (spec.section) throw no_format_of_section("csv");
     auto named = caption;
     named.partners = partner_names(caption.request, cutter_ids(spec.source), spec.partners.size());
     return Print(spec, out, named);
@@ -119,7 +141,16 @@ struct BevelTables {
 
 }  // namespace
 
-BevelTableRequest decode_bevel_table_request(Reader& in) { return BevelTables::decode(in); }
+BevelTableRequest decode_bevel_table_request(Reader& in) {
+  BevelTableRequest out;
+  out.preset = decode_preset(in);
+  check_accepts(in, out.preset);
+  out.source = decode_joint(in);
+  out.sampling = decode_sampling(in);
+  decode_table_options(in, out.preset, out);
+  out.columns = decode_table_columns(in, out);
+  return out;
+}
 
 Result<BevelTableRequest> resolve(BevelTableRequest request, const std::stop_token& stop) {
   TRY(auto source, resolve(std::move(request.source), stop));

@@ -24,6 +24,14 @@ std::string section_csv(const joint::SectionIntersection& cut, const Caption& ca
   return Csv(caption).stacked("surface", surfaces).print();
 }
 
+std::string section_bevel_csv(const bevel::TableSpec& spec, const bevel::SectionTable& table,
+                              const std::vector<std::string>& columns, const Caption& caption) {
+  return Csv(caption)
+      .remark("b_sign: outer_edge_into_part")
+      .table(bevel_columns(spec, table).only(columns))
+      .print();
+}
+
 UnfitOption no_format_of_section(std::string_view offered) {
   return {.name = "format",
           .hint =

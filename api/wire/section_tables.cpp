@@ -36,6 +36,51 @@ Columns profile_columns(const joint::SectionProfile& p) {
   return out;
 }
 
+Columns bevel_columns(const bevel::TableSpec& spec, const bevel::SectionTable& t) {
+  auto out = station_columns(t.at);
+  out.column("wall_mm", t.wall)
+      .column("developed_mm", t.developed)
+      .column("length_mm", t.length)
+      .integers("cutter", t.cutter)
+      .column("z_inner_mm", t.z_inner)
+      .column("z_outer_mm", t.z_outer)
+      .degrees("dihedral_deg", t.dihedral)
+      .degrees("groove_deg", t.groove)
+      .degrees("gamma_deg", t.gamma)
+      .degrees("flush_deg", t.flush)
+      .degrees("b_raw_deg", t.b_raw)
+      .degrees("b_required_deg", t.b_required)
+      .degrees("b_deg", t.b)
+      .column("gap_mm", t.gap)
+      .column("beam_mm", t.beam)
+      .column("torch_inner_mm", t.torch_inner)
+      .column("torch_outer_mm", t.torch_outer)
+      .flags("corner", t.corner);
+  if (spec.root_face > 0.0) out.column("z_face_mm", t.z_face).degrees("b_face_deg", t.b_face);
+  if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove)) {
+    std::vector<std::string> names;
+    for (const auto i : t.zone) names.push_back(zoned->zones[i].id);
+    out.texts("zone", std::move(names));
+  }
+  if (spec.untilted)
+    out.column("gap_inner_mm", t.gaps.square.inner)
+        .column("gap_outer_mm", t.gaps.square.outer)
+        .column("bevelled_gap_inner_mm", t.gaps.bevelled.inner)
+        .column("bevelled_gap_outer_mm", t.gaps.bevelled.outer);
+  return out;
+}
+
+std::vector<std::string> section_bevel_column_names(const bevel::TableSpec& spec) {
+  bevel::TableSpec with;  // the options that determine the columns, without rows
+  with.root_face = spec.root_face;
+  with.groove = spec.groove;
+  with.untilted = spec.untilted;
+  std::vector<std::string> out;
+  const auto columns = bevel_columns(with, {});
+  for (const auto& column : columns.all()) out.push_back(column.name);
+  return out;
+}
+
 std::string_view event_name(joint::SectionEventKind kind) {
   switch (kind) {
     case joint::SectionEventKind::junction:

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "api/wire/columns.hpp"
 #include "api/wire/writer.hpp"
+#include "core/bevel/section/section_table.hpp"
 #include "core/joint/section/section_intersection.hpp"
 
 namespace tubecut::api {
@@ -14,6 +17,11 @@ namespace tubecut::api {
 [[nodiscard]] Columns station_columns(std::span<const section::Station> at);
 /// Returns the points of one surface's profile.
 [[nodiscard]] Columns profile_columns(const joint::SectionProfile& profile);
+
+/// Returns the rows of a bevel table.
+[[nodiscard]] Columns bevel_columns(const bevel::TableSpec& spec, const bevel::SectionTable& table);
+/// Returns the names of the columns that such a table has.
+[[nodiscard]] std::vector<std::string> section_bevel_column_names(const bevel::TableSpec& spec);
 
 /// Returns the name of an event on the wire.
 [[nodiscard]] std::string_view event_name(joint::SectionEventKind kind);

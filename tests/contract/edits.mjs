@@ -22,14 +22,17 @@ function types(contract, schema) {
 // The branch of a oneOf that holds the value; of objects the one whose constants and required members are there, and that knows most of its names.
 export function branchOf(contract, schema, value) {
   if (schema === true || !schema.oneOf) return schema;
-  const fits = (branch) => {
-    if (branch.oneOf) return true;
-    if (branch.type !== 'object') return types(contract, branch).includes(typeOf(value));
-    return (branch.required ?? []).every((name) => name in value) &&
-      Object.entries(branch.properties ?? {}).every(([name, p]) => !words(p) || !(name in value) || words(p).includes(value[name]));
+  const fits = (branch, item) => {
+    if (branch.oneOf) return branch.oneOf.some((b) => fits(contract.resolve(b), item));
+    if (branch.type !== 'object') return types(contract, branch).includes(typeOf(item));
+    if (typeOf(item) !== 'object') return false;
+    return (branch.required ?? []).every((name) => name in item) &&
+      Object.entries(branch.properties ?? {}).every(([name, p]) => !(name in item) || (words(p) ? words(p).includes(item[name]) : suits(p, item[name])));
   };
+  // A choice within, such as the kind of a target, tells the branches apart too.
+  const suits = (p, item) => typeOf(item) !== 'object' || !contract.resolve(p).oneOf || fits(contract.resolve(p), item);
   const strange = ({properties}) => (properties && value !== null && typeof value === 'object' ? Object.keys(value).filter((name) => !(name in properties)).length : 0);
-  const [best] = schema.oneOf.map((b) => contract.resolve(b)).filter(fits).sort((a, b) => strange(a) - strange(b));
+  const [best] = schema.oneOf.map((b) => contract.resolve(b)).filter((b) => fits(b, value)).sort((a, b) => strange(a) - strange(b));
   return branchOf(contract, best, value);
 }
 

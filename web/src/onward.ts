@@ -33,8 +33,8 @@ export function leadsOf(endpoint: string, body: Row, answer: Answer, {sizes}: Pi
   const own = without(body);
   if (endpoint === 'intersections')
     return [{name: 'Cut and bevel', endpoint: 'bevel-tables', body: {...picked(own, ['target', 'cutters', 'node']), ...usualCut}}];
-  // Those for comparison only (`inward`) are cut by no machine.
-  if (endpoint === 'bevel-tables' && answer.result['b_sign'] !== 'inward')
+  // Those for comparison only (`inward`) are cut by no machine; parts and schedules are of round tubes.
+  if (endpoint === 'bevel-tables' && answer.result['b_sign'] !== 'inward' && !isRow(answer.result['section']))
     return [
       {name: 'Part', endpoint: 'parts', body: partOf(body, answer.result)},
       {name: 'Pulses', endpoint: 'pulse-schedules', body: {cut: own, ...usualMotion}},

@@ -70,21 +70,27 @@ export function validated<P extends PostPath>(client: TubecutClient, path: P, bo
 type Points = Schemas['BevelPoints'];
 /** Columns that a table has only with certain options: a land, zones, a preset. */
 type ByOption = 'z_face_mm' | 'b_face_deg' | 'zone' | 'root_gap_mm' | 'gap_inner_mm' | 'gap_outer_mm' | 'bevelled_gap_inner_mm' | 'bevelled_gap_outer_mm';
-type Whole<T> = Omit<T, 'result'> & {result: Omit<Schemas['BevelTable'], 'points'> & {points: Required<Omit<Points, ByOption>> & Pick<Points, ByOption>}};
-type Columns = Schemas['BevelColumns'];
+type Table<Named extends keyof Schemas, Of, Optional extends keyof Of> = Omit<Schemas[Named], 'points'> & {points: Required<Omit<Of, Optional>> & Pick<Of, Optional>};
+type RoundTable = Table<'BevelTable', Points, ByOption>;
+type SectionPoints = Schemas['SectionBevelPoints'];
+type SectionTable = Table<'SectionBevelTable', SectionPoints, ByOption & keyof SectionPoints>;
+type Whole<T, S> = Omit<T, 'result'> & {result: S extends SectionKind ? SectionTable : RoundTable};
+/** A target whose kind is not round. */
+type SectionKind = {kind: 'rectangular_tube' | 'flat_oval_tube'};
+type Columns = Schemas['BevelColumns'] | Schemas['SectionBevelColumns'];
 /** A table of which no columns are named has them all. */
-type Seen<P extends PostPath, C> = P extends '/v1/bevel-tables' ? (C extends Columns ? Answered<P> : Whole<Answered<P>>) : Answered<P>;
-type Naming<P extends PostPath, C> = P extends '/v1/bevel-tables' ? {columns?: C} : unknown;
+type Seen<P extends PostPath, C, S> = P extends '/v1/bevel-tables' ? (C extends Columns ? Answered<P> : Whole<Answered<P>, S>) : Answered<P>;
+type Naming<P extends PostPath, C, S> = P extends '/v1/bevel-tables' ? {columns?: C; target?: S} : unknown;
 
 /**
  * One job: its whole answer with `result`, or a thrown ProblemError. Stricter than `client.POST`, whose inference lets unknown
  * fields of a literal through: here they do not compile.
  */
-export async function post<P extends PostPath, C extends Columns | undefined = undefined>(
-    client: TubecutClient, path: P, body: RequestBody<P> & Naming<P, C>, options: JobOptions = {}): Promise<Seen<P, C>> {
+export async function post<P extends PostPath, C extends Columns | undefined = undefined, S = undefined>(
+    client: TubecutClient, path: P, body: RequestBody<P> & Naming<P, C, S>, options: JobOptions = {}): Promise<Seen<P, C, S>> {
   const data = await sent(client, path, body, options);
   if (data.result === undefined) throw new ContractError('an answer without result');
-  return data as Seen<P, C>;
+  return data as Seen<P, C, S>;
 }
 
 /** Short names of the media types of the service's documents (docs/formats.md). */

@@ -24,6 +24,11 @@ export const square = {
   accept: {max_gap_mm: 3, min_tongue_mm: 10},
 } satisfies Schemas['BevelTablesRequest'];
 
+export const brace = {
+  ...joint,
+  target: {kind: 'rectangular_tube', height_mm: 80, width_mm: 80, wall_mm: 4, corners: 'en_10219'},
+} satisfies Schemas['BevelTablesRequest'];
+
 export async function calls(): Promise<number> {
   const {result: table, verification} = await post(client, '/v1/bevel-tables', joint, {jobId: 'B1 start'});
   const passed: true = verification.passed;
@@ -31,6 +36,10 @@ export async function calls(): Promise<number> {
   const sign: string = table.b_sign;
   const {result: narrow} = await post(client, '/v1/bevel-tables', {...joint, columns: ['phi_deg', 'b_deg']});
   const named: number[] | undefined = narrow.points.b_deg;
+
+  const {result: section} = await post(client, '/v1/bevel-tables', brace);
+  const girth: number[] = section.points.girth_mm;
+  const radius: number = section.section.corner_radius_mm;
 
   const whole = await answered(client.POST('/v1/bevel-tables', {
     body: joint,

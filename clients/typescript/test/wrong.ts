@@ -20,7 +20,7 @@ export async function calls(): Promise<void> {
   await client.POST('/v1/intersections', {body: {target: {outer_diameter_mm: 70}, cutters: [tube]}});
 
   // @ts-expect-error 2322 half_dihedral
-  await client.POST('/v1/bevel-tables', {body: {preset: 'tube_laser', target: joint.target, cutters: [tube], kerf_mm: 0.2, groove: {rule: 'half_dihedral'}}});
+  await client.POST('/v1/bevel-tables', {body: {preset: 'tube_laser', node: {members: [], connect: {within_mm: 1}, member: 'B1', end: 'start'}, kerf_mm: 0.2, groove: {rule: 'half_dihedral'}}});
 
   // @ts-expect-error 2322 'string' is not assignable to type 'number'
   await client.POST('/v1/intersections', {body: {target: {outer_diameter_mm: '70', wall_mm: 5}, cutters: [tube]}});

@@ -26,7 +26,7 @@ bool is_set_in(const TableSpec& spec, std::size_t partner) {
   return stated && stated->kind == joint::JointKind::set_in;
 }
 
-/// What is not offered for a section.
+/// Refuses options that are not available for a section.
 Result<void> check(const section::Section& section, const TableSpec& spec) {
   const auto refused = [](std::string member, std::string hint) {
     return fail({.code = ErrorCode::unsupported_combination,
@@ -34,15 +34,16 @@ Result<void> check(const section::Section& section, const TableSpec& spec) {
                  .hint = std::move(hint)});
   };
   if (spec.dihedral != Dihedral::weld_side)
-    return refused("dihedral", "a target that is not round has weld_side alone");
+    return refused("dihedral", "inside and as_published require a round target");
   if (std::holds_alternative<HermiteSmoothing>(spec.smoothing))
-    return refused("smoothing/method", "a target that is not round has envelope or none");
+    return refused("smoothing/method", "hermite requires a round target");
   if (const auto* zoned = std::get_if<ZonedGroove>(&spec.groove); zoned && zoned->has_root_gaps())
-    return refused("groove/zones", "root gaps of zones go with a round target");
+    return refused("groove/zones", "root gaps of zones require a round target");
   if (spec.root_face > 0.0 && spec.contact != Contact::inner)
-    return refused("root_face", "a root face goes with contact inner");
+    return refused("root_face", "a root face requires contact inner");
   const bool reached = spec.torch.min.rad() <= 0.0 && spec.torch.max.rad() >= 0.0;
-  if (spec.untilted && !reached) return refused("torch", "an untilted head cuts B = 0 alone");
+  if (spec.untilted && !reached)
+    return refused("torch", "an untilted head requires B = 0 within its range");
   if (!(spec.root_face >= 0.0 && spec.root_face < section.wall))
     return fail({.code = ErrorCode::out_of_range,
                  .member = "root_face",
@@ -57,7 +58,7 @@ Result<void> check(const section::Section& section, const TableSpec& spec) {
                  .got = spec.kerf,
                  .limit = spec.kerf < narrow ? kGougeLimit : narrow,
                  .unit = "mm",
-                 .hint = "0, or from the narrowest beam to less than half the smaller side"});
+                 .hint = "0, or at least the narrowest beam and less than half the smaller side"});
   return check_groove(spec.groove);
 }
 

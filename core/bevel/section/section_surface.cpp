@@ -113,12 +113,15 @@ double needed_drop(const SectionSurface& surface, std::size_t row, double share,
 SectionTable::Deepest deepest_in_gap(const SectionSurface& surface, std::size_t row,
                                      const std::vector<joint::Solid>& solids) {
   SectionTable::Deepest out{.depth = -kUnbounded};
+  double across = 0.0;  // share of the wall, from the outside
   const auto see = [&](const SectionSurface::Line& line, double share) {
     const double depth = share * line.wall, z = surface.z(line, depth);
     const auto place = SectionSurface::place(line, depth, z);
     for (std::size_t k = 0; k < solids.size(); ++k) {
       const double in = -solids[k].distance(place);
-      if (in > out.depth) out = {.depth = in, .s = line.at.s, .share = share, .z = z, .solid = k};
+      if (!(in > out.depth)) continue;
+      out = {.depth = in, .s = line.at.s, .below = depth, .z = z, .solid = k};
+      across = share;
     }
   };
   double deepest_share = 0.0;
@@ -130,7 +133,7 @@ SectionTable::Deepest deepest_in_gap(const SectionSurface& surface, std::size_t 
     if (out.depth > before) deepest_share = static_cast<double>(k) / kInGap;
   }
   if (!(out.depth > 0.0)) return out;
-  const double share = out.share;
+  const double share = across;
   const std::size_t solid = out.solid;
   const auto depth_at = [&](double at) {
     const auto line = surface.line(row, at);

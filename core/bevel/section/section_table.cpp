@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
-#include "core/bevel/beam/torch_line.hpp"
+#include "core/bevel/section/section_gaps.hpp"
 #include "core/bevel/section/section_rows.hpp"
 #include "core/bevel/section/section_surface.hpp"
+#include "core/bevel/section/section_torch.hpp"
 #include "core/bevel/table/required.hpp"
 #include "core/joint/section/section_intersection.hpp"
-#include "core/math/mixed.hpp"
 
 namespace tubecut::bevel {
 namespace {
@@ -22,7 +21,6 @@ using detail::SectionRows;
 using detail::SectionSetup;
 
 constexpr double kBelow = 1e-9 * kRadPerDeg;  // what counts as falling below, rad
-constexpr double kNarrow = 1e-4;              // mm: no rows nearer to each other
 constexpr double kRowBend = 0.25;             // of K, at one row
 constexpr double kMinStretch = 0.125;         // of K/A: no shorter one is halved
 constexpr int kSwingRounds = 6, kTorchRounds = 3, kPartnerRounds = 8;
@@ -44,7 +42,7 @@ class Maker {
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     TRY(make_surface());
     for (int round = 0; by_tolerance && spec_.kerf > 0.0 && round < kTorchRounds; ++round) {
-      auto more = places_where_drop_bends();
+      auto more = detail::places_where_drop_bends(surface_, spec_, out_, stop);
       if (more.empty()) break;
       TRY(make_rows(std::move(more)));
       TRY(make_surface());
@@ -57,7 +55,8 @@ class Maker {
     }
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     note();
-    lay_torch();
+    detail::lay_torch(surface_, spec_, out_, stop);
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     return std::move(out_);
   }
 
@@ -253,7 +252,7 @@ class Maker {
     }
     std::vector<double> out;
     for (std::size_t i = 0; i < n; ++i)
-      if (halve[i] && length[i] > 2.0 * narrow && surface_.width(i) > kNarrow)
+      if (halve[i] && length[i] > 2.0 * narrow && surface_.width(i) > detail::kNarrow)
         out.push_back(middle(i));
     return out;
   }
@@ -308,7 +307,7 @@ class Maker {
     std::vector<double> out;
     for (std::size_t i = 0; i < out_.at.size(); ++i) {
       const double wide = surface_.width(i);
-      if (wide < kNarrow) continue;
+      if (wide < detail::kNarrow) continue;
       if (deepest_in_gap(surface_, i, g_.solids).depth <= spec_.sampling.tolerance->value) continue;
       for (const double share : {0.25, 0.5, 0.75}) {
         const double s = out_.at[i].s + share * wide;
@@ -316,71 +315,6 @@ class Maker {
       }
     }
     return out;
-  }
-
-  // ---- the torch
-
-  [[nodiscard]] std::vector<double> places_where_drop_bends() const {
-    std::vector<double> out, drop;
-    for (std::size_t i = 0; i < out_.at.size(); ++i)
-      drop.push_back(needed_drop(surface_, i, 0.0, spec_.kerf));
-    for (std::size_t i = 0; i < out_.at.size(); ++i) {
-      if (surface_.width(i) < kNarrow) continue;
-      const double straight = 0.5 * (drop[i] + drop[surface_.next(i)]);
-      if (std::abs(needed_drop(surface_, i, 0.5, spec_.kerf) - straight) >
-          spec_.sampling.tolerance->value)
-        out.push_back(middle(i));
-    }
-    return out;
-  }
-
-  /// The torch's axis by row, low enough on the way to the next too, and what it takes and leaves.
-  void lay_torch() {
-    const auto n = out_.at.size();
-    std::vector<double> drop(n, 0.0);
-    constexpr double kShares[] = {0.25, 0.5, 0.75};
-    struct Between {
-      std::size_t row;
-      double share, need, cosine;
-    };
-    std::vector<Between> between;
-    if (spec_.kerf > 0.0) {
-      for (std::size_t i = 0; i < n; ++i) drop[i] = needed_drop(surface_, i, 0.0, spec_.kerf);
-      for (std::size_t i = 0; i < n; ++i)
-        for (const double share : kShares) {
-          if (!(surface_.width(i) > 0.0)) continue;
-          const double slope = surface_.line(i, share).slope(spec_.root_face);
-          between.push_back({i, share, needed_drop(surface_, i, share, spec_.kerf),
-                             1.0 / elementary::hypot(1.0, slope)});
-        }
-      for (const auto& b : between) {
-        const auto j = surface_.next(b.row);
-        const double lacks = b.need - math::mixed(drop[b.row], drop[j], b.share);
-        if (!(lacks > 0.0)) continue;
-        drop[b.row] += lacks;
-        drop[j] += lacks;
-      }
-      for (const auto& b : between) {
-        const auto j = surface_.next(b.row);
-        const double off = (math::mixed(drop[b.row], drop[j], b.share) - b.need) * b.cosine;
-        const double s = surface_.line(b.row, b.share).at.s;
-        if (-off > out_.torch_line.gouge) {
-          out_.torch_line.gouge = -off;
-          out_.torch_line.gouge_s = s;
-        }
-        if (off > out_.torch_line.left) {
-          out_.torch_line.left = off;
-          out_.torch_line.left_s = s;
-        }
-      }
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      const double slope = elementary::tan(out_.b[i]);
-      const double foot =
-          out_.z_face.empty() ? out_.z_inner[i] : out_.z_face[i] - spec_.root_face * slope;
-      out_.torch_inner.push_back(foot - drop[i]);
-      out_.torch_outer.push_back(out_.z_outer[i] - drop[i]);
-    }
   }
 
   // ---- what is said of it
@@ -391,6 +325,7 @@ class Maker {
       const auto in = deepest_in_gap(surface_, i, g_.solids);
       if (i == 0 || in.depth > out_.penetration.depth) out_.penetration = in;
     }
+    out_.penetration.depth = std::max(0.0, out_.penetration.depth);
     if (spec_.contact != Contact::none && out_.penetration.depth > penetration_limit(spec_))
       out_.warnings.push_back({.code = WarningCode::enters_partner,
                                .member = "sampling",
@@ -435,37 +370,6 @@ class Maker {
   std::vector<double> also_;
 };
 
-/// The same end with a flush bevel, lifted where the torch ends, without kerf.
-TableSpec flush_spec(const TableSpec& spec) {
-  auto out = spec;
-  out.untilted = false;
-  out.groove = NoGroove{};
-  out.contact = Contact::automatic;
-  out.root_surface = RootSurface::inner;
-  out.kerf = 0.0;
-  out.smoothing = NoSmoothing{};
-  out.sampling.max_nodes *= 2;
-  return out;
-}
-
-/// Distances of both edges of a table to the nearest partner, at the rows of `rows`.
-EdgeGaps edge_gaps(const SectionSetup& g, const TableSpec& spec, const SectionTable& table,
-                   const SectionTable& rows) {
-  const SectionSurface surface(g.wall, spec, table);
-  EdgeGaps out;
-  const auto nearest = [&](const Eigen::Vector3d& place) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& solid : g.solids) least = std::min(least, solid.distance(place));
-    return least;
-  };
-  for (const auto& at : rows.at) {
-    const auto line = surface.line_at(surface.row_before(at.s), at.s);
-    out.inner.push_back(nearest(SectionSurface::place(line, line.wall, line.inner)));
-    out.outer.push_back(nearest(SectionSurface::place(line, 0.0, line.outer)));
-  }
-  return out;
-}
-
 }  // namespace
 
 Result<SectionTable> section_table(const section::Section& section, const TableSpec& spec,
@@ -473,13 +377,13 @@ Result<SectionTable> section_table(const section::Section& section, const TableS
   TRY(const auto g, detail::set_up(section, spec, stop));
   TRY(auto out, Maker(g).make({}, stop));
   if (!spec.untilted) return out;
-  const auto bevelled = flush_spec(spec);
+  const auto bevelled = detail::flush_spec(spec);
   TRY(const auto other, detail::set_up(section, bevelled, stop));
   std::vector<double> places;
   for (const auto& at : out.at) places.push_back(at.s);
   TRY(const auto flush, Maker(other).make(std::move(places), stop));
-  out.gaps.square = edge_gaps(g, spec, out, out);
-  out.gaps.bevelled = edge_gaps(g, bevelled, flush, out);
+  out.gaps.square = detail::edge_gaps(g, spec, out, out);
+  out.gaps.bevelled = detail::edge_gaps(g, bevelled, flush, out);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/elementary.hpp"
 #include "core/bevel/beam/beam.hpp"
@@ -16,28 +17,40 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kOnSection = 1e-9;    // mm
-constexpr double kAngle = 1e-6;        // deg
-constexpr double kPenetration = 1e-6;  // mm
-constexpr double kStated = 1e-3;       // mm
-constexpr double kSilhouette = 1e-5;   // axial part of the normal below which angles lose digits
+constexpr double kOnSection = 1e-9;                // mm
+constexpr double kAngle = 1e-6;                    // deg
+constexpr double kPenetration = 1e-6;              // mm
+constexpr double kStated = 1e-3;                   // mm
+constexpr double kNearLimit = 1e-9;                // rad from the end of the torch range
+constexpr double kPlane = 1e-8;                    // sine of the angle between line and plane
+constexpr double kAreaExcess = 1e-6;               // of the least area
+constexpr double kLeft = 5e-3, kLeftShare = 0.02;  // mm, and relative to `left`
+constexpr double kSilhouette = 1e-5;  // axial part of the normal below which angles lose digits
 
 /// Checks one table from its own numbers.
 class Proof {
  public:
-  Proof(const section::Section& section, const TableSpec& spec, const SectionTable& table)
-      : section_(section), wall_(section), spec_(spec), t_(table), surface_(wall_, spec, table) {
+  Proof(const section::Section& section, const TableSpec& spec, const SectionTable& table,
+        std::stop_token stop)
+      : section_(section),
+        wall_(section),
+        spec_(spec),
+        t_(table),
+        surface_(wall_, spec, table),
+        stop_(std::move(stop)) {
     if (const auto cutters = grown_partners(spec))
       for (const auto& cutter : *cutters) solids_.emplace_back(cutter);
   }
 
   std::vector<Check> checks() {
     std::vector<Check> out;
-    double on = 0.0, dihedral = 0.0, below = 0.0, beyond = 0.0, deep = 0.0, touch = 0.0;
-    for (std::size_t i = 0; i < t_.at.size(); ++i) {
+    double on = 0.0, dihedral = 0.0, plane = 0.0, below = 0.0, beyond = 0.0, deep = 0.0;
+    double touch = 0.0;
+    for (std::size_t i = 0; i < t_.at.size() && !stop_.stop_requested(); ++i) {
       worsen(on, off_outlines(i));
       worsen(dihedral, off_dihedral(i));
-      worsen(below, (std::min(t_.b_raw[i], spec_.torch.max.rad()) - t_.b[i]) * kDegPerRad);
+      worsen(plane, off_plane(i));
+      worsen(below, (input(i) - t_.b[i]) * kDegPerRad);
       if (spec_.contact == Contact::inner) worsen(below, (t_.b_required[i] - t_.b[i]) * kDegPerRad);
       worsen(beyond, (t_.b[i] - spec_.torch.max.rad()) * kDegPerRad);
       worsen(beyond, (spec_.torch.min.rad() - t_.b[i]) * kDegPerRad);
@@ -47,16 +60,22 @@ class Proof {
     }
     out.push_back({"on_section", on, kOnSection, "mm"});
     out.push_back({"dihedral", dihedral, kAngle, "deg"});
+    out.push_back({"bevel_plane", plane, kPlane, ""});
     out.push_back({"above_required", below, kAngle, "deg"});
     out.push_back({"torch_range", beyond, kAngle, "deg"});
-    out.push_back({"penetration", deep, kPenetration, "mm"});
+    if (spec_.contact != Contact::none) out.push_back({"penetration", deep, kPenetration, "mm"});
+    if (spec_.contact == Contact::automatic) out.push_back({"touch", touch, kPenetration, "mm"});
+    if (spec_.untilted) out.push_back({"gap_map", off_gaps(), kPenetration, "mm"});
     smoothing_checks(out);
     const double found = worst_of({sampled_depth(), t_.penetration.depth});
-    out.push_back({"penetration_stated", found - t_.penetration.depth, kStated, "mm"});
+    out.push_back(
+        {"penetration_stated",
+         worst_of({std::abs(depth_there() - t_.penetration.depth), found - t_.penetration.depth}),
+         kStated, "mm"});
     if (promises_no_penetration(spec_))
       out.push_back(
           {"penetration_between", worst_of({0.0, found}), penetration_limit(spec_), "mm"});
-    if (spec_.kerf > 0.0) out.push_back({"gouge", gouge(), kGougeLimit, "mm"});
+    if (spec_.kerf > 0.0) torch_checks(out);
     return out;
   }
 
@@ -68,18 +87,54 @@ class Proof {
                     std::abs(joint::outline_distance(section_, false, q)));
   }
 
+  /// Where the row's root lies on its partner: `gap` is the way from there to a lifted cut.
+  [[nodiscard]] Vector3d root(std::size_t i) const {
+    const Vector2d p = t_.at[i].point;
+    if (spec_.root_surface == RootSurface::outer) return {p.x(), p.y(), t_.z_outer[i]};
+    const Vector2d q = p - t_.wall[i] * t_.at[i].normal;
+    const double lift = spec_.contact == Contact::automatic ? t_.gap[i] : 0.0;
+    return {q.x(), q.y(), t_.z_inner[i] - lift};
+  }
+
   /// Returns by how much the dihedral differs from that of the partner's solid.
   [[nodiscard]] double off_dihedral(std::size_t i) const {
-    const bool outer = spec_.root_surface == RootSurface::outer;
-    if (t_.corner[i] || spec_.contact == Contact::automatic) return 0.0;
-    const Vector2d p =
-        outer ? t_.at[i].point : Vector2d(t_.at[i].point - t_.wall[i] * t_.at[i].normal);
-    const double z = outer ? t_.z_outer[i] : t_.z_inner[i];
-    const auto n = solids_.at(t_.cutter[i]).normal({p.x(), p.y(), z});
+    if (t_.corner[i]) return 0.0;
+    const auto n = solids_.at(t_.cutter[i]).normal(root(i));
     if (std::abs(n.z()) < kSilhouette) return 0.0;
     const double cosine = -(n.x() * t_.at[i].normal.x() + n.y() * t_.at[i].normal.y());
     const double angle = elementary::acos(std::clamp(cosine, -1.0, 1.0)) * kDegPerRad;
     return std::abs(angle - t_.dihedral[i] * kDegPerRad);
+  }
+
+  /// The normal of the root's own surface, from the lengths of the section.
+  [[nodiscard]] Vector3d root_normal(std::size_t i) const {
+    const Vector2d n = t_.at[i].normal;
+    if (spec_.root_surface == RootSurface::outer || wall_.concentric()) return {n.x(), n.y(), 0.0};
+    const Vector2d q = t_.at[i].point - t_.wall[i] * n;
+    const double radius = section_.inner_corner;
+    const Vector2d half(0.5 * section_.height - section_.wall,
+                        0.5 * section_.width - section_.wall);
+    const Vector2d past = q.cwiseAbs() - (half - Vector2d(radius, radius));
+    const Vector2d out(std::max(past.x(), 0.0), std::max(past.y(), 0.0));
+    const Vector2d unit = out.normalized();
+    return {std::copysign(unit.x(), q.x()), std::copysign(unit.y(), q.y()), 0.0};
+  }
+
+  /// Returns the sine of the angle between the wall's line at the rule's B and the plane through
+  /// the root's tangent that makes the groove's angle with the partner.
+  [[nodiscard]] double off_plane(std::size_t i) const {
+    const double cut_back =
+        std::min(t_.b_raw[i] - spec_.torch.min.rad(), spec_.torch.max.rad() - t_.b_raw[i]);
+    const bool square = std::holds_alternative<SquareCut>(spec_.groove);
+    if (t_.corner[i] || square || cut_back < kNearLimit) return 0.0;
+    const auto n = solids_.at(t_.cutter[i]).normal(root(i));
+    const Vector3d across = n.cross(root_normal(i));
+    if (std::abs(n.z()) < kSilhouette || across.norm() < kSilhouette) return 0.0;
+    const Vector3d along = across.normalized();
+    const auto groove = elementary::sincos(t_.groove[i]), lean = elementary::sincos(t_.b_raw[i]);
+    const Vector3d plane = groove.cos * n - groove.sin * along.cross(n);
+    const auto& out = t_.at[i].normal;
+    return std::abs(plane.dot(Vector3d(lean.cos * out.x(), lean.cos * out.y(), lean.sin)));
   }
 
   /// How far the row's cut stays from the nearest partner; negative: it enters.
@@ -98,28 +153,58 @@ class Proof {
     return t_.corner[i] || clearance(i) <= kPenetration;
   }
 
+  /// The input of the smoothing at a row, from the columns.
+  [[nodiscard]] double input(std::size_t i) const {
+    const bool lifted = spec_.contact == Contact::automatic;
+    const bool square = std::holds_alternative<SquareCut>(spec_.groove);
+    const bool floored = spec_.contact == Contact::inner || (lifted && !square);
+    const double own = floored ? std::max(t_.b_raw[i], t_.b_required[i]) : t_.b_raw[i];
+    return std::min(own, spec_.torch.max.rad());
+  }
+
   void smoothing_checks(std::vector<Check>& out) const {
     const auto* method = std::get_if<EnvelopeSmoothing>(&spec_.smoothing);
     if (method == nullptr) return;
     const bool by_length = method->along == Along::length;
     const auto& s = by_length ? t_.length : t_.developed;
     AngleProfile path{.s = {}, .b = {}, .period = by_length ? t_.length_total : t_.developed_total};
+    auto before = path;
     for (std::size_t i = 0; i < s.size(); ++i) {
+      // At a jump the larger input counts.
+      const bool pair = i + 1 < s.size() && t_.at[i].s == t_.at[i + 1].s;
+      const bool second = i > 0 && t_.at[i].s == t_.at[i - 1].s;
+      double most = input(i);
+      if (pair) most = std::max(most, input(i + 1));
+      if (second) most = std::max(most, input(i - 1));
       if (i > 0 && s[i] == s[i - 1]) continue;
       path.s.push_back(s[i]);
       path.b.push_back(t_.b[i]);
+      before.b.push_back(most);
     }
+    before.s = path.s;
     const auto most = allowed_steepness(path, method->limits), got = steepness(path);
     out.push_back({"slope", got.slope * kDegPerRad, most.slope * kDegPerRad, "deg_per_mm"});
     out.push_back(
         {"second_difference", got.second * kDegPerRad, most.second * kDegPerRad, "deg_per_mm2"});
+    if (!method->refine) return;
+    const EnvelopeSpec limits{
+        .limits = method->limits, .highest = spec_.torch.max.rad(), .refine = true};
+    const double excess = area_excess(before, limits, t_.multipliers, area_above(before, path.b));
+    out.push_back({"area_excess", excess, kAreaExcess, ""});
+  }
+
+  /// Returns how deep the stated place lies in its partner.
+  [[nodiscard]] double depth_there() const {
+    const auto& p = t_.penetration;
+    const auto line = surface_.line_at(surface_.row_before(p.s), p.s);
+    return std::max(0.0, -solids_.at(p.solid).distance(SectionSurface::place(line, p.below, p.z)));
   }
 
   /// The deepest of places between rows by the golden ratio.
   [[nodiscard]] double sampled_depth() const {
     constexpr double kGolden = 0.6180339887498949;
     double seed = 0.0, deep = 0.0;
-    for (std::size_t i = 0; i < t_.at.size(); ++i)
+    for (std::size_t i = 0; i < t_.at.size() && !stop_.stop_requested(); ++i)
       for (int k = 0; k < 6; ++k) {
         seed += kGolden;
         seed -= std::floor(seed);
@@ -133,35 +218,71 @@ class Proof {
     return deep;
   }
 
-  /// The beam as a cylinder about the axis at and between rows, against places of the finished
-  /// surface beside it: how deep one lies in it, on the part's side.
-  [[nodiscard]] double gouge() const {
-    constexpr int kAlong = 12, kAcross = 4;
-    const double half = 0.5 * spec_.kerf;
-    double worst = 0.0;
-    for (std::size_t i = 0; i < t_.at.size(); ++i)
+  /// At the distance of its gap from each edge, back along the nearest partner's normal, is that
+  /// partner's surface. Returns the distance by which it is missed.
+  [[nodiscard]] double off_gaps() const {
+    double worst = t_.gaps.square.inner.size() == t_.at.size() ? 0.0 : 1.0;
+    const auto edge = [&](std::size_t i, double depth, double z, double gap) {
+      const auto at = SectionSurface::place(surface_.line(i, 0.0), depth, z);
+      double off = std::numeric_limits<double>::infinity();
+      for (const auto& solid : solids_)
+        off = std::min(off, std::abs(solid.distance(at - gap * solid.normal(at))));
+      worsen(worst, off);
+    };
+    for (std::size_t i = 0; i < t_.gaps.square.inner.size(); ++i) {
+      edge(i, t_.wall[i], t_.z_inner[i], t_.gaps.square.inner[i]);
+      edge(i, 0.0, t_.z_outer[i], t_.gaps.square.outer[i]);
+    }
+    return worst;
+  }
+
+  /// The beam as a cylinder about the stated axis, at and between rows, against places of the
+  /// finished surface.
+  void torch_checks(std::vector<Check>& out) const {
+    double gouge = 0.0, left = 0.0;
+    for (std::size_t i = 0; i < t_.at.size() && !stop_.stop_requested(); ++i)
       for (const double share : {0.0, 0.37, 0.71}) {
         if (share > 0.0 && !(surface_.width(i) > 0.0)) continue;
-        const auto j = surface_.next(i);
-        const auto own = surface_.line(i, share);
-        const double inner = (1.0 - share) * t_.torch_inner[i] + share * t_.torch_inner[j];
-        const double outer = (1.0 - share) * t_.torch_outer[i] + share * t_.torch_outer[j];
-        const auto head = SectionSurface::place(own, 0.0, outer);
-        const Vector3d along = (head - SectionSurface::place(own, own.wall, inner)).normalized();
-        const Vector3d up(-along.z() * own.at.normal.x(), -along.z() * own.at.normal.y(),
-                          elementary::hypot(along.x(), along.y()));
-        for (int k = -kAlong; k <= kAlong; ++k) {
-          const double s = own.at.s + half * k / kAlong;
-          const double there = s - t_.girth * std::floor(s / t_.girth);
-          const auto line = surface_.line_at(surface_.row_before(there), there);
-          for (int a = 0; a <= kAcross; ++a) {
-            const double depth = line.wall * a / kAcross;
-            const Vector3d off = SectionSurface::place(line, depth, surface_.z(line, depth)) - head;
-            if (off.dot(up) <= 0.0) continue;  // on the scrap's side of the axis
-            worsen(worst, half - (off - off.dot(along) * along).norm());
-          }
-        }
+        const double in = entered(i, share);
+        worsen(gouge, in);
+        if (share > 0.0) worsen(left, -in);
       }
+    const auto& stated = t_.torch_line;
+    out.push_back({"gouge", worst_of({gouge, stated.gouge}), kGougeLimit, "mm"});
+    out.push_back({"gouge_stated", worst_of({0.0, gouge - stated.gouge}), kStated, "mm"});
+    out.push_back({"left_stated", worst_of({0.0, left - stated.left}),
+                   std::max(kLeft, kLeftShare * stated.left), "mm"});
+  }
+
+  /// How far the beam would have to move off the part, square to its axis, to touch the finished
+  /// surface only; negative: how far it could come nearer.
+  [[nodiscard]] double entered(std::size_t i, double share) const {
+    constexpr int kAlong = 60, kAcross = 6;
+    const double half = 0.5 * spec_.kerf, reach = 2.6 * spec_.kerf;
+    const auto j = surface_.next(i);
+    const auto own = surface_.line(i, share);
+    const double inner = (1.0 - share) * t_.torch_inner[i] + share * t_.torch_inner[j];
+    const double outer = (1.0 - share) * t_.torch_outer[i] + share * t_.torch_outer[j];
+    const auto head = SectionSurface::place(own, 0.0, outer);
+    const Vector3d axis = (head - SectionSurface::place(own, own.wall, inner)).normalized();
+    const Vector3d side(-own.at.normal.y(), own.at.normal.x(), 0.0), up = axis.cross(side);
+    double worst = -std::numeric_limits<double>::infinity();
+    const auto see = [&](double s) {
+      const double there = s - t_.girth * std::floor(s / t_.girth);
+      const auto line = surface_.line_at(surface_.row_before(there), there);
+      for (int a = 0; a <= kAcross; ++a) {
+        const double depth = line.wall * a / kAcross;
+        const Vector3d off = SectionSurface::place(line, depth, surface_.z(line, depth)) - head;
+        const double u = off.dot(side);
+        const double v = off.x() * own.at.normal.x() + off.y() * own.at.normal.y();
+        if (!(std::abs(u) < half) || v < -(own.wall + spec_.kerf)) continue;
+        worst = std::max(worst, std::sqrt((half - u) * (half + u)) - off.dot(up));
+      }
+    };
+    for (int k = -kAlong; k <= kAlong; ++k) {
+      see(own.at.s + reach * k / kAlong);
+      see(own.at.s + half * k / kAlong);
+    }
     return worst;
   }
 
@@ -170,14 +291,15 @@ class Proof {
   const TableSpec& spec_;
   const SectionTable& t_;
   SectionSurface surface_;
+  std::stop_token stop_;
   std::vector<joint::Solid> solids_;
 };
 
 }  // namespace
 
 std::vector<Check> verify(const section::Section& section, const TableSpec& spec,
-                          const SectionTable& table) {
-  return Proof(section, spec, table).checks();
+                          const SectionTable& table, const std::stop_token& stop) {
+  return Proof(section, spec, table, stop).checks();
 }
 
 }  // namespace tubecut::bevel

@@ -105,6 +105,11 @@ class Known {
       `the reader knows ${name}, the contract does not, and it is not refused`);
   }
 
+  // A request, and the kinds of it that another request may hold.
+  branches(request) {
+    return [request, ...(request.anyOf ?? []).map((branch) => this.contract.resolve(branch))];
+  }
+
   // Bodies that hold another endpoint's request, as a schedule holds a part: the first of each way that has one, with others of
   // that endpoint's in its place.
   *nested(bodies, seed) {
@@ -112,10 +117,11 @@ class Known {
     for (const body of bodies) {
       const {properties = {}} = branchOf(this.contract, this.endpoint.request, body);
       for (const [name, property] of Object.entries(properties)) {
-        const of = name in body && !had.has(property) && this.posts.find(({request}) => request === this.contract.resolve(property));
+        const own = this.contract.resolve(property);
+        const of = name in body && !had.has(property) && this.posts.find(({request}) => this.branches(request).includes(own));
         if (!of) continue;
         had.add(property);
-        const any = fromSchema(this.contract, of.request).filter((inner) => !('accept' in inner) && of.validRequest(inner));
+        const any = fromSchema(this.contract, own).filter((inner) => !('accept' in inner) && of.validRequest(inner));
         // Examples first: a drawn request may have more errors than an answer lists, and the list then has none of the body around it.
         for (const inner of [...of.examples.map((example) => example.body), ...drawn(any, seed, NESTED)]) yield {...structuredClone(body), [name]: structuredClone(inner)};
       }

@@ -181,6 +181,50 @@ TEST(SectionTable, RandomEndsProveThemselves) {
   }
 }
 
+/// The groove of one face turns into that of the next inside the corner: at the ends of flats, of
+/// the outside and of the bore, neither B nor any angle has a step.
+TEST(SectionTable, AnglesAreContinuousAtSeams) {
+  constexpr double kBeside = 1e-6;  // mm
+  const auto golden = testing::golden("sections.json");
+  int seen = 0;
+  for (const auto& end : testing::golden_ends(golden)) {
+    if (end.name == "shs_open") continue;
+    SCOPED_TRACE(end.name);
+    const auto spec = spec_of(end.partners);
+    const auto g = detail::set_up(end.section, spec, {});
+    ASSERT_TRUE(g);
+    auto seams = g->wall.outer().seams();
+    for (const double s : g->wall.bore().seams())
+      seams.push_back(g->wall.outside_of(g->wall.bore().at(s)));
+    std::vector<double> also;
+    for (const double s : seams) {
+      also.push_back(s - kBeside);
+      also.push_back(s + kBeside);
+    }
+    const auto made = detail::section_rows(*g, also);
+    ASSERT_TRUE(made);
+    for (const double s : seams) {
+      const detail::SectionRow *before = nullptr, *after = nullptr;
+      bool corner = false;
+      for (const auto& row : made->rows) {
+        if (std::abs(row.at.s - (s - kBeside)) < 1e-9) before = &row;
+        if (std::abs(row.at.s - (s + kBeside)) < 1e-9) after = &row;
+        corner = corner || (row.corner && std::abs(row.at.s - s) < 1e-3);
+      }
+      if (corner) continue;
+      ASSERT_TRUE(before != nullptr && after != nullptr) << s;
+      const auto &a = before->point.angles, &b = after->point.angles;
+      if (std::max(a.dihedral, b.dihedral) > 179.0 * kRadPerDeg) continue;  // along a silhouette
+      ++seen;
+      EXPECT_NEAR(a.dihedral, b.dihedral, 1e-5) << s;
+      EXPECT_NEAR(a.gamma, b.gamma, 1e-5) << s;
+      EXPECT_NEAR(a.b, b.b, 1e-5) << s;
+      EXPECT_NEAR(before->across.wall, after->across.wall, 1e-5) << s;
+    }
+  }
+  EXPECT_GT(seen, 100);
+}
+
 /// A mitre of 90 deg: flush B is -45, 0, 45, 0 deg on the faces, whatever the corners.
 TEST(SectionTable, MitreHasItsAngles) {
   const section::Section square{

@@ -6,7 +6,7 @@ import type {Context} from './context';
 import {at, figure, plural, readings} from './facts';
 import {gapChart, gapFigures, gapsOf, gapScale} from './gaps';
 import {bounds, partner, radians, tube, type Sizes} from './geometry';
-import {ofSection, sectionCut} from './section';
+import {isSection, sectionCurves, sectionTable} from './section';
 
 interface Joint {
   outer: number;
@@ -47,6 +47,7 @@ export async function joint(request: Row, context: Context): Promise<Joint> {
 }
 
 export async function bevelTable(_: Row, answer: Answer, context: Context): Promise<Picture> {
+  if (isSection(answer)) return sectionTable(answer);
   const given = await joint(answer.request, context);
   return tablePicture(answer.request, answer.result, given, context.sizes, 'cut');
 }
@@ -286,7 +287,7 @@ function readout(points: Row, names: string[], i: number): [Term, string][] {
 }
 
 export async function intersection(_: Row, answer: Answer, context: Context): Promise<Picture> {
-  if (ofSection(answer.result)) return sectionCut(answer, context);
+  if (isSection(answer)) return sectionCurves(answer, context.sizes);
   const given = await joint(answer.request, context);
   const profiles = answer.result['profiles'] as Row[];
   const bySurface = (surface: string) => profiles.find((p) => p['surface'] === surface) ?? (profiles[0] as Row);

@@ -1,110 +1,148 @@
-import type {Row} from '../json';
-import {column, type Picture, type Solid, type Vector} from '../picture';
+import {isRow, type Json, type Row} from '../json';
+import {column, type Band, type Chart, type Mark, type Picture} from '../picture';
 import type {Answer} from '../service';
 import {choice, number, term} from '../words';
-import type {Context} from './context';
-import {figure, plural, readings} from './facts';
-import {bounds, partner, type Sizes} from './geometry';
+import {facts, figure, figures, plural, readings} from './facts';
+import {bounds, type Sizes} from './geometry';
+import {sectionSolid} from './section_solid';
 
-/** Returns whether an answer of intersections is of a tube that is not round: its points are counted by the girth. */
-export const ofSection = (result: Row): boolean => 'section' in result;
+/** Pictures of a target that is not round: charts along the girth, and the end in space. */
+export const isSection = (answer: Answer) => isRow(answer.result['section']);
 
-const edgeOf = (points: Row): Vector[] => {
-  const [x, y, z] = ['x_mm', 'y_mm', 'z_mm'].map((key) => column(points[key])) as [number[], number[], number[]];
-  return x.map((at, i) => [at, y[i] as number, z[i] as number]);
-};
+const rowsIn = (row: Row, name: string) => (row[name] ?? []) as Row[];
 
-/** The place on a closed line that is nearest to p, seen along the tube. */
-function nearest(line: Vector[], p: Vector): Vector {
-  let best = line[0] as Vector;
-  let least = Number.POSITIVE_INFINITY;
-  line.forEach((a, i) => {
-    const b = line[(i + 1) % line.length] as Vector;
-    const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
-    const long = dx * dx + dy * dy;
-    const share = long > 0 ? Math.min(1, Math.max(0, ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / long)) : 0;
-    const at: Vector = [a[0] + share * dx, a[1] + share * dy, a[2] + share * (b[2] - a[2])];
-    const off = Math.hypot(p[0] - at[0], p[1] - at[1]);
-    if (off < least) [least, best] = [off, at];
-  });
-  return best;
+function namesOf(request: Row): string[] {
+  return rowsIn(request, 'cutters').map((each, i) => String(each['id'] ?? `partner ${i + 1}`));
 }
 
-function solid(outer: Vector[], inner: Vector[], cutters: Row[], sizes: Sizes): Solid {
-  const [low, high] = bounds([...outer, ...inner].map((p) => p[2]));
-  const size = 2 * Math.max(...outer.map((p) => Math.hypot(p[0], p[1])));
-  const far = high + 0.9 * size;
-  const closed = (line: Vector[]) => [...line, line[0] as Vector];
-  const end = (line: Vector[]) => closed(line).map(([x, y]): Vector => [x, y, far]);
-  const middle = (low + high) / 2;
+/** Ends of flats are seen at the strip of faces; junctions, jumps and kinks are marked. */
+const marksOf = (events: Row[], surface: Json | undefined): Mark[] =>
+  events
+    .filter((event) => event['surface'] === surface && event['kind'] !== 'tangent_line')
+    .map((event) => ({x: Number(event['girth_mm']), tone: 'mark', text: choice(event['kind'])}));
+
+function eventTable(events: Row[], names: string[]) {
+  const name = (value: Json | undefined) => names[Number(value)] ?? String(value);
   return {
-    link: 'cut',
-    tubes: [],
-    ribbons: [
-      {a: closed(outer), b: end(outer), tone: 'target'},
-      {a: closed(inner), b: end(inner), tone: 'inner'},
-      {a: closed(outer), b: closed(outer).map((p) => nearest(inner, p)), tone: 'bevel'},
-    ],
-    lines: [outer, inner].map((line) => ({points: closed(line), tone: 'ink'})),
-    partners: cutters.map((row, i) => partner(row, i, [0, 0, middle], Math.max(1.3 * size, high - low), sizes)),
-    centre: [0, 0, middle + 0.2 * size],
-    size: Math.max(1.35 * size, 0.8 * (high - low + size)),
-    eye: [0.95, -0.75, -0.95],
-    up: [0, 0, -1],
+    title: 'Junctions and ends of flats',
+    head: ['kind', 'wall', term('girth_mm'), term('z_mm'), 'from', 'to'],
+    rows: events.map((row) => [
+      choice(row['kind']),
+      choice(row['surface']),
+      number(Number(row['girth_mm']), 'mm'),
+      number(Number(row['z_from_mm']), 'mm'),
+      name(row['from']),
+      name(row['to']),
+    ]),
   };
 }
 
-/** The cut of a rectangular, square or flat oval tube: its height round the girth, and the end in space. */
-export function sectionCut(answer: Answer, context: Context): Picture {
-  const cutters = (answer.request['cutters'] as Row[] | undefined) ?? [];
-  const names = cutters.map((each, i) => String(each['id'] ?? `partner ${i + 1}`));
-  const section = answer.result['section'] as Row;
-  const profiles = answer.result['profiles'] as Row[];
-  const bySurface = (surface: string) => profiles.find((p) => p['surface'] === surface) ?? (profiles[0] as Row);
-  const [outer, inner] = ['outer', 'inner'].map((surface) => bySurface(surface)['points'] as Row) as [Row, Row];
-  const events = profiles.flatMap((p) => p['events'] as Row[]);
-  const partners = column(outer['cutter']);
-  const chart = (points: Row, surface: string, girth: number) => ({
-    id: `height-${surface}`,
-    title: `Height z of the cut, ${choice(surface)} edge`,
-    link: surface === 'outer' ? 'cut' : 'bore',
-    unit: 'mm',
-    x: {name: 'girth', unit: 'mm', values: column(points['girth_mm'])},
-    period: girth,
-    partners: column(points['cutter']),
-    partnerNames: names,
-    height: 220,
-    series: [{name: 'z', values: column(points['z_mm']), tone: surface, width: 2}],
-    marks: events.filter((e) => e['surface'] === surface && e['from'] !== e['to']).map((e) => ({x: Number(e['girth_mm']), tone: 'mark', text: 'junction'})),
+function bandsOf(result: Row, girth: number): Band[] {
+  return rowsIn(result, 'torch_binds').flatMap((row) => {
+    const [from, to] = [Number(row['from_girth_mm']), Number(row['to_girth_mm'])];
+    const band = {tone: 'bad', text: 'torch range binds'};
+    if (to <= girth) return [{from, to, ...band}];
+    return [
+      {from, to: girth, ...band},
+      {from: 0, to: to - girth, ...band},
+    ];
   });
-  return {
-    solid: solid(edgeOf(outer), edgeOf(inner), cutters, context.sizes),
-    charts: [chart(outer, 'outer', Number(section['girth_mm'])), chart(inner, 'inner', Number(section['bore_girth_mm']))],
-    figures: [
-      ...profiles.map((p) => ({...figure('length_mm', p['length_mm']), name: `length, ${choice(p['surface'])} edge`})),
-      ...['girth_mm', 'bore_girth_mm', 'mass_kg_per_m'].map((key) => figure(key, section[key])),
-    ],
-    tables: events.length
-      ? [
-          {
-            title: 'Junctions and corners',
-            head: ['kind', 'wall', term('girth_mm'), term('z_mm'), 'from', 'to'],
-            rows: events.map((row) => [
-              choice(row['kind']),
-              choice(row['surface']),
-              number(Number(row['girth_mm']), 'mm'),
-              number(Number(row['z_from_mm']), 'mm'),
-              names[Number(row['from'])] ?? '',
-              names[Number(row['to'])] ?? '',
-            ]),
-          },
-        ]
-      : [],
-    said: `The cut meets ${plural(new Set(partners).size, 'partner')}.`,
-    readout: (i, link) => {
-      const points = link === 'bore' ? inner : outer;
-      const of = column(points['cutter']);
-      return [...readings(points, i, ['girth_mm', 'z_mm', 'x_mm', 'y_mm']), ['partner', names[of[i % of.length] as number] ?? '']];
+}
+
+export function sectionTable(answer: Answer): Picture {
+  const {request, result} = answer;
+  const points = result['points'] as Row,
+    section = result['section'] as Row;
+  const names = namesOf(request);
+  const of = (name: string) => column(points[name]);
+  const [b, raw] = [of('b_deg'), of('b_raw_deg')];
+  const girth = Number(section['girth_mm']);
+  const events = rowsIn(result, 'events');
+  const torch = isRow(request['torch']) ? request['torch'] : {};
+  const shared = {
+    link: 'cut',
+    x: {name: 'girth', unit: 'mm', values: of('girth_mm')},
+    period: girth,
+    partners: of('cutter'),
+    partnerNames: names,
+    marks: marksOf(events, request['root_surface']),
+  };
+  const charts: Chart[] = [
+    {
+      ...shared,
+      id: 'bevel',
+      title: 'Cutting angle B',
+      unit: '°',
+      height: 205,
+      series: [
+        {name: 'before', about: 'As the groove requires it.', values: raw, tone: 'before', dash: [5, 4]},
+        {name: 'least that clears', about: 'With less, a partner would enter the wall.', values: of('b_required_deg'), tone: 'floor', width: 1},
+        {name: 'after', about: 'As the torch follows it.', values: b, tone: 'after', width: 2.2},
+      ],
+      bands: bandsOf(result, girth),
+      limits: ['min_deg', 'max_deg'].map((name) => ({y: Number(torch[name] ?? NaN), text: 'torch limit'})).filter((l) => Number.isFinite(l.y)),
     },
+    {
+      ...shared,
+      id: 'height',
+      title: 'Height z of the cut',
+      unit: 'mm',
+      height: 150,
+      series: [
+        {name: 'outer edge', values: of('z_outer_mm'), tone: 'outer', width: 2},
+        {name: 'inner edge', values: of('z_inner_mm'), tone: 'inner', width: 1.5, dash: [5, 4]},
+      ],
+    },
+  ];
+  const [low, high] = bounds(b);
+  const laser = isRow(result['tube_laser']) ? result['tube_laser'] : undefined;
+  const gap = laser && isRow(laser['gap']) ? laser['gap'] : undefined;
+  return {
+    charts,
+    figures: [
+      {name: 'least B', value: number(low, '°'), unit: '°', about: 'Of the finished cut.'},
+      {name: 'greatest B', value: number(high, '°'), unit: '°', about: 'Of the finished cut.'},
+      ...figures(gap, ['greatest_mm'], 'gap'),
+      figure('length_mm', result['length_mm']),
+    ],
+    tables: [facts('section', section), eventTable(events, names)],
+    readout: (i) =>
+      readings(points, i, ['girth_mm', 'normal_deg', 'face', 'b_raw_deg', 'b_deg', 'dihedral_deg', 'z_outer_mm', 'z_inner_mm', 'gap_mm', 'beam_mm']),
+    said: low === high ? `B is ${number(low, '°')}° all round.` : `B from ${number(low, '°')} to ${number(high, '°')}°.`,
+  };
+}
+
+export function sectionCurves(answer: Answer, sizes: Sizes): Picture {
+  const {request, result} = answer;
+  const names = namesOf(request);
+  const profiles = rowsIn(result, 'profiles');
+  const events = profiles.flatMap((profile) => rowsIn(profile, 'events'));
+  const on = (surface: string) => (profiles.find((each) => each['surface'] === surface) ?? (profiles[0] as Row))['points'] as Row;
+  return {
+    solid: sectionSolid(on('outer'), on('inner'), rowsIn(request, 'cutters'), sizes),
+    charts: profiles.map((profile): Chart => {
+      const points = profile['points'] as Row;
+      const surface = choice(profile['surface']);
+      return {
+        id: `height-${surface}`,
+        title: `Height z, ${surface} edge`,
+        link: surface,
+        unit: 'mm',
+        x: {name: 'girth', unit: 'mm', values: column(points['girth_mm'])},
+        period: Number(profile['developed_length_mm']),
+        partners: column(points['cutter']),
+        partnerNames: names,
+        height: 200,
+        series: [{name: `${surface} edge`, values: column(points['z_mm']), tone: 'outer', width: 2}],
+        marks: marksOf(events, profile['surface']),
+      };
+    }),
+    figures: profiles.map((profile) => ({...figure('length_mm', profile['length_mm']), name: `length, ${choice(profile['surface'])} edge`})),
+    tables: [facts('section', result['section'] as Row), eventTable(events, names)],
+    readout: (i, link) => {
+      const profile = profiles.find((each) => choice(each['surface']) === link);
+      return profile ? readings(profile['points'] as Row, i, ['girth_mm', 'normal_deg', 'face', 'z_mm']) : [];
+    },
+    said: `The cut meets ${plural(new Set(profiles.flatMap((profile) => column((profile['points'] as Row)['cutter']))).size, 'partner')}.`,
   };
 }

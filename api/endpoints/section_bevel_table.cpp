@@ -1,0 +1,164 @@
+#include "api/endpoints/section_bevel_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "api/wire/column_choice.hpp"
+#include "api/wire/joint_names.hpp"
+#include "api/wire/section_tables.hpp"
+
+namespace tubecut::api {
+namespace {
+
+double reach(const bevel::SectionTable& t) {
+  return std::max(std::ranges::max(t.z_inner), std::ranges::max(t.z_outer)) -
+         std::min(std::ranges::min(t.z_inner), std::ranges::min(t.z_outer));
+}
+
+void encode_gap(std::string_view name, const bevel::SectionTable& t, const bevel::EdgeGaps& gaps,
+                Writer& w) {
+  const auto most = bevel::greatest(gaps);
+  w.object(name, [&](Writer& o) {
+    o.field("greatest_mm", most.gap);
+    o.field("girth_mm", t.at[most.row].s);
+    o.field("edge", wall_name(most.outer));
+  });
+}
+
+void encode_events(const bevel::SectionTable& t, Writer& w) {
+  struct Placed {
+    const joint::SectionEvent* event;
+    bool outer;
+  };
+  std::vector<Placed> events;
+  for (const auto& event : t.inner_events) events.push_back({&event, false});
+  for (const auto& event : t.outer_events) events.push_back({&event, true});
+  w.array("events", events, [](Writer& each, const Placed& placed) {
+    encode_event(*placed.event, placed.outer, each);
+  });
+  w.array("mutations", t.mutations, [](Writer& each, const bevel::SectionTable::Step& m) {
+    each.object([&](Writer& o) {
+      o.field("girth_mm", m.s);
+      o.degrees("step_deg", m.step);
+    });
+  });
+}
+
+void encode_limits(const bevel::TableSpec& spec, Writer& o) {
+  o.degrees("mutation_limit_deg", spec.mutation_limit.rad());
+  const auto* envelope = std::get_if<bevel::EnvelopeSmoothing>(&spec.smoothing);
+  if (envelope == nullptr) return;
+  o.degrees("max_slope_deg_per_mm", envelope->limits.slope);
+  o.degrees("max_curvature_deg_per_mm2", envelope->limits.curvature);
+}
+
+void encode_proof(const bevel::SectionTable& t, Writer& w) {
+  w.array("torch_binds", t.torch_binds, [](Writer& each, const bevel::SectionTable::Binding& v) {
+    each.object([&](Writer& o) {
+      o.field("from_girth_mm", v.from);
+      o.field("to_girth_mm", v.to);
+      o.degrees("groove_lost_deg", v.groove_lost);
+      o.field("root_gap_mm", v.root_gap);
+    });
+  });
+  w.object("penetration", [&](Writer& o) {
+    o.field("depth_mm", t.penetration.depth);
+    o.field("girth_mm", t.penetration.s);
+    o.field("below_outside_mm", t.penetration.below);
+    o.field("z_mm", t.penetration.z);
+    o.field("cutter", t.penetration.solid);
+  });
+  w.object("torch_line", [&](Writer& o) {
+    o.field("gouge_mm", t.torch_line.gouge);
+    o.field("gouge_girth_mm", t.torch_line.gouge_s);
+    o.field("left_mm", t.torch_line.left);
+    o.field("left_girth_mm", t.torch_line.left_s);
+  });
+}
+
+/// Every column that a section's table may have.
+std::vector<std::string> all_names() {
+  bevel::TableSpec all;
+  all.root_face = 1.0;
+  all.groove = bevel::ZonedGroove{};
+  all.untilted = true;
+  return section_bevel_column_names(all);
+}
+
+/// Refuses fields that apply only to round targets, each at its own pointer.
+void refuse_round_only(Reader& in, const BevelTableRequest& spec) {
+  const auto refuse = [&](std::string pointer, Json got, Json limit, std::string hint) {
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = std::move(pointer),
+              .got = std::move(got),
+              .limit = std::move(limit),
+              .hint = std::move(hint)});
+  };
+  if (spec.dihedral != bevel::Dihedral::weld_side)
+    refuse("dihedral", *in.find("dihedral"), Json{"weld_side"},
+           "inside and as_published require a round target");
+  if (std::holds_alternative<bevel::HermiteSmoothing>(spec.smoothing))
+    refuse("smoothing/method", Json{"hermite"}, Json{"envelope|none"},
+           "hermite requires a round target");
+  if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove))
+    for (std::size_t i = 0; i < zoned->zones.size(); ++i)
+      if (const auto& gap = zoned->zones[i].root_gap)
+        refuse("groove/zones/" + std::to_string(i) + "/root_gap_mm", Json{*gap}, Json{},
+               "root gaps of zones require a round target; root_gap_mm of the request applies to "
+               "all zones");
+  const auto* accept = in.find("accept");
+  if (const auto* tongue = accept != nullptr ? accept->find("min_tongue_mm") : nullptr;
+      tongue != nullptr && spec.preset == Preset::tube_laser)
+    refuse("accept/min_tongue_mm", *tongue, Json{}, "tongues are measured on round targets only");
+}
+
+}  // namespace
+
+SectionTarget decode_section_cut(Reader& in, BevelTableRequest& out) {
+  in.exactly_one({"target", "node"});
+  auto section = decode_section_target(in);
+  out.source.target = target_of(section);
+  out.source.partners = decode_cutters(in);
+  out.sampling = decode_sampling(in);
+  decode_table_options(in, out.preset, out);
+  refuse_round_only(in, out);
+  out.columns = decode_columns(in, all_names(), section_bevel_column_names(out));
+  return section;
+}
+
+std::vector<Measure> measures_of(const bevel::TableSpec& spec, const bevel::SectionTable& t) {
+  double gap = 0.0, extra = 0.0, b = 0.0;
+  for (std::size_t i = 0; i < t.b.size(); ++i) {
+    gap = std::max(gap, t.gap[i]);
+    extra = std::max(extra, t.b[i] - t.b_raw[i]);
+    b = std::max(b, std::abs(t.b[i]));
+  }
+  std::vector<Measure> out{{"max_root_gap_mm", gap},
+                           {"max_extra_bevel_deg", extra * kDegPerRad},
+                           {"max_b_deg", b * kDegPerRad}};
+  if (!spec.untilted) return out;
+  out.push_back({"max_reach_mm", reach(t)});
+  out.push_back({"max_gap_mm", bevel::greatest(t.gaps.square).gap});
+  return out;
+}
+
+void encode_table(const bevel::TableSpec& spec, const bevel::SectionTable& t,
+                  const std::vector<std::string>& columns, Writer& w) {
+  w.object("points", [&](Writer& p) { bevel_columns(spec, t).only(columns).write(p); });
+  w.field("b_sign", "outer_edge_into_part");
+  encode_events(t, w);
+  w.object("limits", [&](Writer& o) { encode_limits(spec, o); });
+  encode_proof(t, w);
+  w.field("length_mm", t.length_total);
+  w.field("developed_length_mm", t.developed_total);
+  if (!spec.untilted) return;
+  w.object("tube_laser", [&](Writer& o) {
+    encode_gap("gap", t, t.gaps.square, o);
+    encode_gap("bevelled_gap", t, t.gaps.bevelled, o);
+    o.field("reach_mm", reach(t));
+  });
+}
+
+}  // namespace tubecut::api

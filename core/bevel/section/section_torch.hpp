@@ -1,0 +1,24 @@
+#pragma once
+
+#include <stop_token>
+#include <vector>
+
+#include "core/bevel/section/section_surface.hpp"
+
+namespace tubecut::bevel::detail {
+
+inline constexpr double kNarrow = 1e-4;  // mm: no rows nearer to each other
+
+/// Returns the middles (s) of the gaps in which the needed drop leaves the straight line between
+/// its rows by more than the sampling's tolerance. Incomplete if cancelled.
+[[nodiscard]] std::vector<double> places_where_drop_bends(const SectionSurface& surface,
+                                                          const TableSpec& spec,
+                                                          const SectionTable& table,
+                                                          const std::stop_token& stop);
+
+/// Fills the torch's axis by row and `torch_line`. The drop is straight from row to row, so rows
+/// are lowered if it would fall short between them. Incomplete if cancelled.
+void lay_torch(const SectionSurface& surface, const TableSpec& spec, SectionTable& table,
+               const std::stop_token& stop);
+
+}  // namespace tubecut::bevel::detail
