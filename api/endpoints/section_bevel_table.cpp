@@ -73,8 +73,6 @@ void encode_proof(const bevel::SectionTable& t, Writer& w) {
   w.object("torch_line", [&](Writer& o) {
     o.field("gouge_mm", t.torch_line.gouge);
     o.field("gouge_girth_mm", t.torch_line.gouge_s);
-    o.field("left_mm", t.torch_line.left);
-    o.field("left_girth_mm", t.torch_line.left_s);
   });
 }
 

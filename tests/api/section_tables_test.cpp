@@ -57,10 +57,9 @@ TEST(SectionTables, BraceOnChordIsVerified) {
   std::vector<std::string> checks;
   for (const auto& check : *at(answer.body, "verification/checks").as<api::Json::Array>())
     checks.push_back(text(check, "name"));
-  for (const char* name :
-       {"on_section", "dihedral", "bevel_plane", "above_required", "slope", "second_difference",
-        "area_excess", "torch_range", "penetration", "penetration_stated", "penetration_between",
-        "gouge", "gouge_stated", "left_stated"})
+  for (const char* name : {"on_section", "dihedral", "bevel_plane", "above_required", "slope",
+                           "second_difference", "area_excess", "torch_range", "penetration",
+                           "penetration_stated", "penetration_between", "gouge", "gouge_stated"})
     EXPECT_NE(std::ranges::find(checks, name), checks.end()) << name;
 }
 

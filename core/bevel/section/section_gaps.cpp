@@ -6,6 +6,20 @@
 #include "core/bevel/section/section_surface.hpp"
 
 namespace tubecut::bevel::detail {
+namespace {
+
+/// The finished line of a table at row i of `rows`: at a jump the first of two belongs to the
+/// first.
+SectionSurface::Line line_of(const SectionSurface& surface, const SectionTable& table,
+                             const SectionTable& rows, std::size_t i) {
+  const double s = rows.at[i].s;
+  auto k = surface.row_before(s);
+  const bool first = i + 1 < rows.at.size() && rows.at[i + 1].s == s;
+  if (first && k > 0 && table.at[k].s == s && table.at[k - 1].s == s) --k;
+  return table.at[k].s == s ? surface.line(k, 0.0) : surface.line_at(k, s);
+}
+
+}  // namespace
 
 TableSpec flush_spec(const TableSpec& spec) {
   auto out = spec;
@@ -28,8 +42,8 @@ EdgeGaps edge_gaps(const SectionSetup& g, const TableSpec& spec, const SectionTa
     for (const auto& solid : g.solids) least = std::min(least, solid.distance(place));
     return least;
   };
-  for (const auto& at : rows.at) {
-    const auto line = surface.line_at(surface.row_before(at.s), at.s);
+  for (std::size_t i = 0; i < rows.at.size(); ++i) {
+    const auto line = line_of(surface, table, rows, i);
     out.inner.push_back(nearest(SectionSurface::place(line, line.wall, line.inner)));
     out.outer.push_back(nearest(SectionSurface::place(line, 0.0, line.outer)));
   }

@@ -5,6 +5,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/bevel/beam/torch_line.hpp"
 #include "core/bevel/table/required.hpp"
 #include "core/joint/section/section_length.hpp"
 
@@ -51,14 +52,15 @@ Result<void> check(const section::Section& section, const TableSpec& spec) {
                  .limit = section.wall,
                  .unit = "mm",
                  .hint = "must be less than the wall"});
-  const double narrow = std::min(section.height, section.width) / 2.0;
-  if (!(spec.kerf < narrow) || (spec.kerf > 0.0 && spec.kerf < kGougeLimit))
-    return fail({.code = ErrorCode::out_of_range,
-                 .member = "kerf",
-                 .got = spec.kerf,
-                 .limit = spec.kerf < narrow ? kGougeLimit : narrow,
-                 .unit = "mm",
-                 .hint = "0, or at least the narrowest beam and less than half the smaller side"});
+  TRY(check_kerf(spec.kerf));
+  if (!(spec.kerf <= section.corner))
+    return fail(
+        {.code = ErrorCode::out_of_range,
+         .member = "kerf",
+         .got = spec.kerf,
+         .limit = section.corner,
+         .unit = "mm",
+         .hint = "at most the corner radius outside: a wider beam reaches around the corner"});
   return check_groove(spec.groove);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
 #include "core/joint/solid.hpp"
 #include "core/math/mixed.hpp"
@@ -13,11 +14,13 @@ namespace tubecut::bevel {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr int kAlong = 24;      // places within reach of the beam
-constexpr int kAcross = 4;      // parts of the wall
-constexpr double kReach = 2.6;  // kerfs along s that a beam reaches where lines bunch
-constexpr int kRounds = 3;      // of the search along and across
-constexpr int kInGap = 8;       // parts of a gap between rows
+constexpr int kAlong = 14;          // places within reach of the beam, to each side
+constexpr int kAcross = 4;          // parts of the wall
+constexpr double kReach = 2.6;      // kerfs along s that a beam reaches where lines bunch
+constexpr std::size_t kDepths = 6;  // five places across the wall, and the edge of the land
+constexpr int kRounds = 2;          // of the search across and along
+constexpr double kMargin = 0.03;    // of half a kerf
+constexpr int kInGap = 8;           // parts of a gap between rows
 
 }  // namespace
 
@@ -41,6 +44,12 @@ SectionSurface::Line SectionSurface::line(std::size_t row, double share) const {
   out.inner = mixed(table_.z_inner);
   out.outer = mixed(table_.z_outer);
   out.face = table_.z_face.empty() ? out.inner : mixed(table_.z_face);
+  out.foot = out.inner;
+  if (table_.z_face.empty()) return out;
+  const auto foot = [&](std::size_t k) {
+    return table_.z_face[k] - spec_.root_face * elementary::tan(table_.b[k]);
+  };
+  out.foot = math::mixed(foot(row), foot(j), share);
   return out;
 }
 
@@ -65,49 +74,145 @@ double SectionSurface::z(const Line& line, double depth) const {
   return math::mixed(line.inner, line.face, from_bore / land());
 }
 
-double needed_drop(const SectionSurface& surface, std::size_t row, double share, double kerf) {
-  const auto own = surface.line(row, share);
-  const Eigen::Vector2d n = own.at.normal, t = own.at.tangent();
-  const double slope = own.slope(surface.land()), secant = elementary::hypot(1.0, slope);
-  const double half = 0.5 * kerf, girth = surface.wall().outer().girth();
-  if (half == 0.0) return 0.0;
-  const auto need = [&](double s, double part) {
-    const double there = s - girth * std::floor(s / girth);
-    const auto line = surface.line_at(surface.row_before(there), there);
-    const double depth = part * line.wall;
-    const Eigen::Vector2d off = line.at.point - depth * line.at.normal - own.at.point;
-    const double u = off.dot(t), v = off.dot(n);
-    if (!(std::abs(u) < half) || v < -(own.wall + kerf)) return -kUnbounded;
-    return own.outer + v * slope - surface.z(line, depth) +
-           std::sqrt((half - u) * (half + u)) * secant;
-  };
-  const double reach = kReach * kerf;
-  double best = -kUnbounded, best_s = own.at.s, best_part = 0.0;
-  const auto see = [&](double s, double part) {
-    const double value = need(s, part);
-    if (!(value > best)) return;
-    best = value;
-    best_s = s;
-    best_part = part;
-  };
-  for (int k = -kAlong; k <= kAlong; ++k)
-    for (int a = 0; a <= kAcross; ++a)
-      see(own.at.s + reach * k / kAlong, static_cast<double>(a) / kAcross);
-  for (int k = -kAlong; k <= kAlong; ++k)
-    for (const double part : {0.0, 1.0}) see(own.at.s + half * k / kAlong, part);
-  // The place at which most is needed, along the cut, across the wall, and along it again.
-  for (int round = 0; round < kRounds; ++round) {
-    const double part = best_part, s = best_s, step = reach / kAlong;
-    const auto along =
-        math::golden_maximum([&](double at) { return need(at, part); }, s - step, s + step);
-    see(along.at, part);
-    const double there = best_s, wide = 1.0 / kAcross;
-    const auto across =
-        math::golden_maximum([&](double at) { return need(there, at); }, std::max(0.0, part - wide),
-                             std::min(1.0, part + wide));
-    see(there, across.at);
+namespace {
+
+/// Finds the drop that one place of the cut needs.
+class Drop {
+ public:
+  Drop(const SectionSurface& surface, std::size_t row, double share, double kerf)
+      : surface_(surface),
+        own_(surface.line(row, share)),
+        tangent_(own_.at.tangent()),
+        slope_(own_.slope()),
+        secant_(elementary::hypot(1.0, slope_)),
+        half_(0.5 * kerf),
+        deepest_(-(own_.wall + kerf)) {}
+
+  double needed(std::size_t row) {
+    const double reach = kReach * 2.0 * half_;
+    const auto grid = places(reach);
+    std::vector<double> sampled(grid.size() * kDepths);
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+      const auto line = line_at(grid[k]);
+      for (std::size_t a = 0; a < kDepths; ++a) {
+        const double depth = depth_of(line, a);
+        sampled[a * grid.size() + k] = need(line, depth);
+        see(line, depth);
+      }
+    }
+    const double margin = kMargin * half_ * secant_;  // by which the grid may fall short
+    for (std::size_t a = 0; a < kDepths; ++a) refine(grid, &sampled[a * grid.size()], a, margin);
+    // The surface has its edges' corners at rows: both of a jump count.
+    surface_.rows_near(row, reach, [&](std::size_t i) { across(surface_.line(i, 0.0), margin); });
+    for (int round = 0; round < kRounds; ++round) {
+      const auto line = line_at(best_s_);
+      across(line, margin);
+      const double share = best_depth_ / line.wall, near = 0.05 * half_;
+      along(best_s_ - near, best_s_ + near,
+            [share](const SectionSurface::Line& other) { return share * other.wall; });
+    }
+    return best_;
   }
-  return best;
+
+ private:
+  /// Depths below the outside: of fractions of the wall, and of the land's edge.
+  [[nodiscard]] double depth_of(const SectionSurface::Line& line, std::size_t a) const {
+    if (a == kDepths - 1) return line.wall - surface_.land();
+    return line.wall * static_cast<double>(a) / static_cast<double>(kDepths - 2);
+  }
+
+  /// Ascending s: dense where the beam's circle is steep, further out where lines bunch.
+  [[nodiscard]] std::vector<double> places(double reach) const {
+    std::vector<double> out;
+    for (int k = -kAlong; k <= kAlong; ++k) {
+      const double sine = elementary::sin(0.5 * kPi * k / kAlong);
+      out.push_back(own_.at.s + half_ * sine);
+      if (reach * std::abs(sine) > half_) out.push_back(own_.at.s + reach * sine);
+    }
+    std::ranges::sort(out);
+    return out;
+  }
+
+  /// Refines every maximum of the grid that may be the largest.
+  void refine(const std::vector<double>& grid, const double* sampled, std::size_t a,
+              double margin) {
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+      const double here = sampled[k];
+      if (!(here > best_ - margin)) continue;
+      const bool left = k == 0 || here >= sampled[k - 1];
+      const bool right = k + 1 == grid.size() || here >= sampled[k + 1];
+      if (left && right)
+        along(grid[k == 0 ? 0 : k - 1], grid[k + 1 == grid.size() ? k : k + 1],
+              [&](const SectionSurface::Line& line) { return depth_of(line, a); });
+    }
+  }
+  template <class Depth>
+  void along(double low, double high, Depth depth) {
+    const auto most = math::golden_maximum(
+        [&](double s) {
+          const auto line = line_at(s);
+          return need(line, depth(line));
+        },
+        low, high);
+    const auto line = line_at(most.at);
+    see(line, depth(line));
+  }
+
+  /// On each side of the land's edge the need is concave across the wall.
+  void across(const SectionSurface::Line& line, double margin) {
+    const double edge = line.wall - surface_.land();
+    double most = -kUnbounded, at = 0.0;
+    for (std::size_t a = 0; a < kDepths; ++a) {
+      const double depth = depth_of(line, a), value = need(line, depth);
+      see(line, depth);
+      if (!(value > most)) continue;
+      most = value;
+      at = depth;
+    }
+    if (!(most > best_ - margin)) return;
+    const double wide = line.wall / static_cast<double>(kDepths - 2);
+    const auto golden = [&](double low, double high) {
+      if (!(low < high)) return;
+      see(line,
+          math::golden_maximum([&](double depth) { return need(line, depth); }, low, high).at);
+    };
+    golden(std::max(0.0, at - wide), std::min(at + wide, edge));
+    golden(std::max(edge, at - wide), std::min(at + wide, line.wall));
+  }
+
+  [[nodiscard]] SectionSurface::Line line_at(double s) const {
+    const double girth = surface_.wall().outer().girth();
+    const double there = s - girth * std::floor(s / girth);
+    return surface_.line_at(surface_.row_before(there), there);
+  }
+
+  [[nodiscard]] double need(const SectionSurface::Line& line, double depth) const {
+    const Eigen::Vector2d off = line.at.point - depth * line.at.normal - own_.at.point;
+    const double u = off.dot(tangent_), v = off.dot(own_.at.normal);
+    if (!(std::abs(u) < half_) || v < deepest_) return -kUnbounded;
+    return own_.outer + v * slope_ - surface_.z(line, depth) +
+           std::sqrt((half_ - u) * (half_ + u)) * secant_;
+  }
+
+  void see(const SectionSurface::Line& line, double depth) {
+    const double value = need(line, depth);
+    if (!(value > best_)) return;
+    best_ = value;
+    best_s_ = line.at.s;
+    best_depth_ = depth;
+  }
+
+  const SectionSurface& surface_;
+  SectionSurface::Line own_;
+  Eigen::Vector2d tangent_;
+  double slope_, secant_, half_, deepest_;
+  double best_ = -kUnbounded, best_s_ = 0.0, best_depth_ = 0.0;
+};
+
+}  // namespace
+
+double needed_drop(const SectionSurface& surface, std::size_t row, double share, double kerf) {
+  return kerf > 0.0 ? Drop(surface, row, share, kerf).needed(row) : 0.0;
 }
 
 SectionTable::Deepest deepest_in_gap(const SectionSurface& surface, std::size_t row,

@@ -21,9 +21,10 @@ class SectionSurface {
     double wall = 0.0;
     double inner = 0.0, outer = 0.0;  // z
     double face = 0.0;                // z at the land's outer edge; without one that of the bore
+    double foot = 0.0;  // z where the bevel's line, straight from row to row, meets the bore
 
-    /// tan B, and z on the outside of the bevel's line.
-    [[nodiscard]] double slope(double land) const { return (outer - face) / (wall - land); }
+    /// tan B of the torch's axis.
+    [[nodiscard]] double slope() const { return (outer - foot) / wall; }
   };
   [[nodiscard]] Line line(std::size_t row, double share) const;
   /// At a place s that lies between row `row` and the next.
@@ -39,6 +40,24 @@ class SectionSurface {
   [[nodiscard]] double width(std::size_t row) const;
   [[nodiscard]] std::size_t next(std::size_t row) const {
     return row + 1 < table_.at.size() ? row + 1 : 0;
+  }
+  [[nodiscard]] std::size_t rows() const { return table_.at.size(); }
+  /// Calls f(row) for every row within `reach` (mm along s) of the gap after `row`, each once.
+  template <class F>
+  void rows_near(std::size_t row, double reach, F f) const {
+    const auto n = rows();
+    std::size_t left = n, i = row;
+    for (double passed = 0.0; left > 0 && passed <= reach; passed += width(i)) {
+      f(i);
+      --left;
+      i = i == 0 ? n - 1 : i - 1;
+    }
+    i = next(row);
+    for (double passed = 0.0; left > 0 && passed <= reach; i = next(i)) {
+      f(i);
+      --left;
+      passed += width(i);
+    }
   }
   [[nodiscard]] double land() const { return spec_.root_face; }
   [[nodiscard]] const section::Wall& wall() const { return wall_; }

@@ -55,8 +55,7 @@ class Maker {
     }
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     note();
-    detail::lay_torch(surface_, spec_, out_, stop);
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    TRY(detail::lay_torch(surface_, spec_, out_, stop));
     return std::move(out_);
   }
 
@@ -317,7 +316,7 @@ class Maker {
     return out;
   }
 
-  // ---- what is said of it
+  // ---- figures and warnings
 
   void note() {
     note_torch_binds();

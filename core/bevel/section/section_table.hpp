@@ -50,7 +50,6 @@ struct SectionTable {
   Deepest penetration;
   struct Torch {
     double gouge = 0.0, gouge_s = 0.0;  // depth that the beam cuts into the finished part
-    double left = 0.0, left_s = 0.0;    // metal that it leaves on it
   };
   Torch torch_line;
   std::vector<Warning> warnings;
@@ -66,8 +65,8 @@ struct SectionTable {
 /// with root gaps of their own are refused (unsupported_combination).
 /// Errors    those of `table` except sampling_not_uniform and transition_too_long.
 /// Accuracy  `penetration` is the deepest of 40 places of each gap between rows, refined along the
-///           gap; `torch_line` the worst of 7 places of each gap. `verify` compares both with other
-///           places: within 1e-3 mm, metal left within 5e-3 mm or 2 %.
+///           gap; `torch_line` the worst of 10 places of each gap. `verify` compares both with
+///           other places, within 1e-3 and 5e-3 mm.
 /// Cost      linear in the rows, with a kerf about 1 ms each.
 /// Source    docs/theory/sections.md, sections 3 to 5.
 [[nodiscard]] Result<SectionTable> section_table(const section::Section& section,

@@ -1,20 +1,31 @@
 #include "core/bevel/section/section_torch.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/bevel/beam/beam.hpp"
+#include "core/bevel/section/section_beam.hpp"
 #include "core/math/mixed.hpp"
 
 namespace tubecut::bevel::detail {
 namespace {
 
-constexpr double kLowered[] = {0.25, 0.5, 0.75};  // shares of a gap at which rows are lowered
-constexpr double kStated[] = {0.125, 0.375, 0.625, 0.875};  // and at which the rest is found too
+constexpr int kParts = 4;  // of a gap between rows
+constexpr double kNear[] = {0.5, 0.95, 1.05, 1.4, 1.8,
+                            2.4, 3.2,  4.2,  5.2};  // of half a kerf, from a row
+constexpr double kBend = 1e-3;                      // mm: a straighter need is not divided
+constexpr int kDivisions = 3;                       // of an interval, each into halves
+constexpr int kSpared = 6;                          // rounds of lowering rows that the beam enters
+constexpr double kLooked[] = {0.0, 0.04, 0.1, 0.2, 0.35,
+                              0.5, 0.65, 0.8, 0.9, 0.96};  // shares of a gap
+constexpr double kEntered = 1e-4;                          // mm
+constexpr double kShortest = 5e-4;  // mm along s: no shorter interval is divided
 
 /// The drop that a place between two rows needs.
 struct Need {
   std::size_t row;
-  double share, drop, cosine;
+  double share, drop;
 };
 
 class Torch {
@@ -28,57 +39,110 @@ class Torch {
     if (spec_.kerf > 0.0) {
       for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i)
         drop_[i] = needed_drop(surface_, i, 0.0, spec_.kerf);
-      const auto lowered = needs(kLowered, stop);
-      for (const auto& need : lowered) lower(need);
-      for (const auto& need : lowered) state(need);
-      for (const auto& need : needs(kStated, stop)) state(need);
+      std::vector<std::vector<Need>> all;
+      for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i)
+        if (surface_.width(i) > 0.0) all.push_back(needs(i));
+      for (const auto& gap : all) lower(gap);
     }
-    for (std::size_t i = 0; i < n; ++i) {
-      const double slope = elementary::tan(table_.b[i]);
-      const double foot =
-          table_.z_face.empty() ? table_.z_inner[i] : table_.z_face[i] - spec_.root_face * slope;
-      table_.torch_inner.push_back(foot - drop_[i]);
-      table_.torch_outer.push_back(table_.z_outer[i] - drop_[i]);
-    }
+    write();
+    if (spec_.kerf > 0.0) spare(stop);
   }
 
  private:
-  template <std::size_t N>
-  [[nodiscard]] std::vector<Need> needs(const double (&shares)[N], const std::stop_token& stop) {
-    std::vector<Need> out;
-    for (std::size_t i = 0; i < table_.at.size() && !stop.stop_requested(); ++i) {
-      if (!(surface_.width(i) > 0.0)) continue;
-      for (const double share : shares) {
-        const double slope = surface_.line(i, share).slope(spec_.root_face);
-        out.push_back({i, share, needed_drop(surface_, i, share, spec_.kerf),
-                       1.0 / elementary::hypot(1.0, slope)});
-      }
+  /// The needs of a gap by share, dense where they bend or step. The edges have corners at rows, so
+  /// the need changes most within half a kerf of one.
+  [[nodiscard]] std::vector<Need> needs(std::size_t row) const {
+    const double wide = surface_.width(row), half = 0.5 * spec_.kerf;
+    std::vector<double> shares{0.0, 1.0};
+    for (int k = 1; k < kParts && wide > kShortest; ++k)
+      shares.push_back(static_cast<double>(k) / kParts);
+    for (const double near : kNear) {
+      const double share = near * half / wide;
+      if (share >= 1.0 || wide <= kShortest) break;
+      shares.push_back(share);
+      shares.push_back(1.0 - share);
     }
+    std::ranges::sort(shares);
+    std::vector<Need> out{at(row, shares.front())};
+    for (std::size_t k = 1; k < shares.size(); ++k)
+      divide(out.back(), at(row, shares[k]), kDivisions, out);
     return out;
+  }
+
+  /// Appends the needs after `from` up to `to`.
+  void divide(Need from, Need to, int divisions, std::vector<Need>& out) const {
+    if (divisions > 0 && (to.share - from.share) * surface_.width(from.row) > kShortest) {
+      const auto middle = at(from.row, 0.5 * (from.share + to.share));
+      if (std::abs(middle.drop - 0.5 * (from.drop + to.drop)) > kBend) {
+        divide(from, middle, divisions - 1, out);
+        return divide(middle, to, divisions - 1, out);
+      }
+      out.push_back(middle);
+    }
+    out.push_back(to);
+  }
+
+  [[nodiscard]] Need at(std::size_t row, double share) const {
+    return {row, share, needed_drop(surface_, row, share, spec_.kerf)};
   }
 
   [[nodiscard]] double laid(const Need& at) const {
     return math::mixed(drop_[at.row], drop_[surface_.next(at.row)], at.share);
   }
 
+  /// If the need steps between two neighbours, the larger holds for both.
+  void lower(const std::vector<Need>& gap) {
+    for (const auto& need : gap) lower(need);
+    for (std::size_t k = 1; k < gap.size(); ++k) {
+      const auto &a = gap[k - 1], &b = gap[k];
+      if (!((b.share - a.share) * surface_.width(a.row) <= kShortest)) continue;
+      const double most = std::max(a.drop, b.drop);
+      lower(Need{a.row, a.share, most});
+      lower(Need{b.row, b.share, most});
+    }
+  }
+
+  /// Lowers the nearer row most.
   void lower(const Need& at) {
     const double lacks = at.drop - laid(at);
     if (!(lacks > 0.0)) return;
-    drop_[at.row] += lacks;
-    drop_[surface_.next(at.row)] += lacks;
+    const double rest = 1.0 - at.share, both = rest * rest + at.share * at.share;
+    drop_[at.row] += lacks * rest / both;
+    drop_[surface_.next(at.row)] += lacks * at.share / both;
   }
 
-  void state(const Need& at) {
-    auto& out = table_.torch_line;
-    const double off = (laid(at) - at.drop) * at.cosine;
-    const double s = surface_.line(at.row, at.share).at.s;
-    if (-off > out.gouge) {
-      out.gouge = -off;
-      out.gouge_s = s;
+  /// Writes the axis of every row.
+  void write() {
+    table_.torch_inner.clear();
+    table_.torch_outer.clear();
+    for (std::size_t i = 0; i < table_.at.size(); ++i) {
+      table_.torch_inner.push_back(surface_.line(i, 0.0).foot - drop_[i]);
+      table_.torch_outer.push_back(table_.z_outer[i] - drop_[i]);
     }
-    if (off > out.left) {
-      out.left = off;
-      out.left_s = s;
+  }
+
+  /// Lowers the rows where the beam, as a cylinder, still enters the part.
+  void spare(const std::stop_token& stop) {
+    auto& out = table_.torch_line;
+    for (int round = 0; round < kSpared; ++round) {
+      out = {};
+      std::vector<Need> entered;
+      for (std::size_t i = 0; i < table_.at.size() && !stop.stop_requested(); ++i)
+        for (const double share : kLooked) {
+          if (share > 0.0 && !(surface_.width(i) > 0.0)) continue;
+          const double depth = beam_depth(surface_, table_, i, share, spec_.kerf);
+          const auto line = surface_.line(i, share);
+          const Need here{i, share, 0.0};
+          if (depth > kEntered)
+            entered.push_back(
+                {i, share, laid(here) + depth * elementary::hypot(1.0, line.slope())});
+          if (!(depth > out.gouge)) continue;
+          out.gouge = depth;
+          out.gouge_s = line.at.s;
+        }
+      if (entered.empty() || round + 1 == kSpared) return;
+      for (const auto& need : entered) lower(need);
+      write();
     }
   }
 
@@ -107,9 +171,19 @@ std::vector<double> places_where_drop_bends(const SectionSurface& surface, const
   return out;
 }
 
-void lay_torch(const SectionSurface& surface, const TableSpec& spec, SectionTable& table,
-               const std::stop_token& stop) {
+Result<void> lay_torch(const SectionSurface& surface, const TableSpec& spec, SectionTable& table,
+                       const std::stop_token& stop) {
   Torch(surface, spec, table).lay(stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  const auto& beam = table.torch_line;
+  if (!(beam.gouge > 0.5 * kGougeLimit)) return {};
+  return fail({.code = ErrorCode::out_of_range,
+               .member = "kerf",
+               .got = spec.kerf,
+               .unit = "mm",
+               .hint = "a beam as wide would take " + brief(beam.gouge) +
+                       " mm from the finished part, at girth " + brief(beam.gouge_s) +
+                       " mm: the cut bends tighter there than the kerf"});
 }
 
 }  // namespace tubecut::bevel::detail

@@ -17,8 +17,9 @@ inline constexpr double kNarrow = 1e-4;  // mm: no rows nearer to each other
                                                           const std::stop_token& stop);
 
 /// Fills the torch's axis by row and `torch_line`. The drop is straight from row to row, so rows
-/// are lowered if it would fall short between them. Incomplete if cancelled.
-void lay_torch(const SectionSurface& surface, const TableSpec& spec, SectionTable& table,
-               const std::stop_token& stop);
+/// are lowered if it would fall short between them.
+/// Errors  out_of_range (kerf): the beam enters the finished part all the same; cancelled.
+[[nodiscard]] Result<void> lay_torch(const SectionSurface& surface, const TableSpec& spec,
+                                     SectionTable& table, const std::stop_token& stop);
 
 }  // namespace tubecut::bevel::detail

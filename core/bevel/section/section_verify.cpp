@@ -3,8 +3,10 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
 #include "core/bevel/beam/beam.hpp"
+#include "core/bevel/section/section_beam.hpp"
 #include "core/bevel/section/section_rows.hpp"
 #include "core/bevel/section/section_surface.hpp"
 #include "core/bevel/smoothing/least_area.hpp"
@@ -17,15 +19,15 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kOnSection = 1e-9;                // mm
-constexpr double kAngle = 1e-6;                    // deg
-constexpr double kPenetration = 1e-6;              // mm
-constexpr double kStated = 1e-3;                   // mm
-constexpr double kNearLimit = 1e-9;                // rad from the end of the torch range
-constexpr double kPlane = 1e-8;                    // sine of the angle between line and plane
-constexpr double kAreaExcess = 1e-6;               // of the least area
-constexpr double kLeft = 5e-3, kLeftShare = 0.02;  // mm, and relative to `left`
-constexpr double kSilhouette = 1e-5;  // axial part of the normal below which angles lose digits
+constexpr double kOnSection = 1e-9;    // mm
+constexpr double kAngle = 1e-6;        // deg
+constexpr double kPenetration = 1e-6;  // mm
+constexpr double kStated = 1e-3;       // mm
+constexpr double kNearLimit = 1e-9;    // rad from the end of the torch range
+constexpr double kPlane = 1e-8;        // sine of the angle between line and plane
+constexpr double kAreaExcess = 1e-6;   // of the least area
+constexpr double kGougeStated = 5e-3;  // mm
+constexpr double kSilhouette = 1e-5;   // axial part of the normal below which angles lose digits
 
 /// Checks one table from its own numbers.
 class Proof {
@@ -236,54 +238,16 @@ class Proof {
     return worst;
   }
 
-  /// The beam as a cylinder about the stated axis, at and between rows, against places of the
-  /// finished surface.
+  /// The beam as a cylinder about the stated axis, at and between rows.
   void torch_checks(std::vector<Check>& out) const {
-    double gouge = 0.0, left = 0.0;
+    double gouge = 0.0;
     for (std::size_t i = 0; i < t_.at.size() && !stop_.stop_requested(); ++i)
-      for (const double share : {0.0, 0.37, 0.71}) {
-        if (share > 0.0 && !(surface_.width(i) > 0.0)) continue;
-        const double in = entered(i, share);
-        worsen(gouge, in);
-        if (share > 0.0) worsen(left, -in);
-      }
-    const auto& stated = t_.torch_line;
-    out.push_back({"gouge", worst_of({gouge, stated.gouge}), kGougeLimit, "mm"});
-    out.push_back({"gouge_stated", worst_of({0.0, gouge - stated.gouge}), kStated, "mm"});
-    out.push_back({"left_stated", worst_of({0.0, left - stated.left}),
-                   std::max(kLeft, kLeftShare * stated.left), "mm"});
-  }
-
-  /// How far the beam would have to move off the part, square to its axis, to touch the finished
-  /// surface only; negative: how far it could come nearer.
-  [[nodiscard]] double entered(std::size_t i, double share) const {
-    constexpr int kAlong = 60, kAcross = 6;
-    const double half = 0.5 * spec_.kerf, reach = 2.6 * spec_.kerf;
-    const auto j = surface_.next(i);
-    const auto own = surface_.line(i, share);
-    const double inner = (1.0 - share) * t_.torch_inner[i] + share * t_.torch_inner[j];
-    const double outer = (1.0 - share) * t_.torch_outer[i] + share * t_.torch_outer[j];
-    const auto head = SectionSurface::place(own, 0.0, outer);
-    const Vector3d axis = (head - SectionSurface::place(own, own.wall, inner)).normalized();
-    const Vector3d side(-own.at.normal.y(), own.at.normal.x(), 0.0), up = axis.cross(side);
-    double worst = -std::numeric_limits<double>::infinity();
-    const auto see = [&](double s) {
-      const double there = s - t_.girth * std::floor(s / t_.girth);
-      const auto line = surface_.line_at(surface_.row_before(there), there);
-      for (int a = 0; a <= kAcross; ++a) {
-        const double depth = line.wall * a / kAcross;
-        const Vector3d off = SectionSurface::place(line, depth, surface_.z(line, depth)) - head;
-        const double u = off.dot(side);
-        const double v = off.x() * own.at.normal.x() + off.y() * own.at.normal.y();
-        if (!(std::abs(u) < half) || v < -(own.wall + spec_.kerf)) continue;
-        worst = std::max(worst, std::sqrt((half - u) * (half + u)) - off.dot(up));
-      }
-    };
-    for (int k = -kAlong; k <= kAlong; ++k) {
-      see(own.at.s + reach * k / kAlong);
-      see(own.at.s + half * k / kAlong);
-    }
-    return worst;
+      for (const double share : {0.0, 0.13, 0.44, 0.62, 0.88})
+        if (share == 0.0 || surface_.width(i) > 0.0)
+          worsen(gouge, beam_depth(surface_, t_, i, share, spec_.kerf));
+    const double stated = t_.torch_line.gouge;
+    out.push_back({"gouge", worst_of({gouge, stated}), kGougeLimit, "mm"});
+    out.push_back({"gouge_stated", worst_of({0.0, gouge - stated}), kGougeStated, "mm"});
   }
 
   const section::Section& section_;
