@@ -1,5 +1,6 @@
 import type {Row} from '../json';
 import {column, type Solid, type Vector} from '../picture';
+import {choice} from '../words';
 import {bounds, partner, type Sizes} from './geometry';
 
 const edgeOf = (points: Row): Vector[] => {
@@ -33,7 +34,7 @@ export function sectionSolid(outerPoints: Row, innerPoints: Row, cutters: Row[],
   const end = (line: Vector[]) => closed(line).map(([x, y]): Vector => [x, y, far]);
   const middle = (low + high) / 2;
   return {
-    link: 'cut',
+    link: choice('outer'),
     tubes: [],
     ribbons: [
       {a: closed(outer), b: end(outer), tone: 'target'},
