@@ -76,6 +76,13 @@ bool Reader::understood(std::string_view name) const {
                      [&](const Json::Member& member) { return member.first == name; });
 }
 
+bool Reader::sound(std::string_view name) const {
+  const auto at = pointer_ + "/" + std::string(name);
+  return std::ranges::none_of(*issues_, [&](const FieldIssue& issue) {
+    return issue.pointer == at || issue.pointer.starts_with(at + "/");
+  });
+}
+
 void Reader::issue(FieldIssue issue, const Json* value) {
   issue.pointer = issue.pointer.empty() ? pointer_ : pointer_ + "/" + issue.pointer;
   record(std::move(issue), value);

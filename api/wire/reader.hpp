@@ -67,6 +67,8 @@ class Reader {
   [[nodiscard]] bool refused() const { return !issues_->empty(); }
   /// Returns whether the field has been read, or its default taken, without an issue of its own.
   [[nodiscard]] bool understood(std::string_view name) const;
+  /// Returns whether no issue is known of the field, nor of anything within it.
+  [[nodiscard]] bool sound(std::string_view name) const;
 
   double number(std::string_view name, Range range = {}, std::optional<double> fallback = {});
   std::optional<double> optional_number(std::string_view name, Range range = {});

@@ -113,7 +113,7 @@ struct Replays {
   static Spec decode(Reader& in) {
     Spec out;
     out.job = decode_schedule_request(in);
-    const bool known = in.understood("machine");
+    const bool known = in.sound("machine");
     out.schedule = in.object("schedule", [&](Reader& s) {
       if (!known) s.silence();  // its members follow from the machine's axes
       return decode_schedule(s, out.job.machine, std::holds_alternative<PartRequest>(out.job.cut));
