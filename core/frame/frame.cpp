@@ -8,6 +8,7 @@
 #include "core/base/try.hpp"
 #include "core/frame/frame_parts.hpp"
 #include "core/joint/nearness.hpp"
+#include "core/joint/node/body_overlap.hpp"
 #include "core/joint/node/in_line.hpp"
 #include "core/joint/node/node_parts.hpp"
 #include "core/joint/node/overlap.hpp"
@@ -229,6 +230,36 @@ std::vector<Warning> warnings(const Joined& joined) {
   return out;
 }
 
+std::vector<joint::Body> bodies(const FrameSpec& spec, const Joined& joined) {
+  std::vector<joint::Body> out;
+  for (const auto& other : spec.others) out.push_back({other.partner});
+  for (std::size_t i = 0; i < joined.others.size(); ++i) {
+    const auto& member = spec.members[i / 2];
+    for (const auto& one : joined.others[i])
+      out[one.other].joined.emplace_back(i / 2, i % 2 == 0 ? member.start : member.finish);
+  }
+  return out;
+}
+
+/// Warns of the members that enter one of the others although no joint names the two.
+Result<std::vector<Warning>> warnings_of_others(const FrameSpec& spec, const Joined& joined,
+                                                const joint::Beside& beside,
+                                                const std::stop_token& stop) {
+  TRY(const auto found,
+      joint::overlaps_with(bodies(spec, joined), joined.node, joined.nodes, beside, stop));
+  std::vector<Warning> out;
+  for (const auto& o : found) {
+    const auto& name = spec.others[o.body].name;
+    out.push_back({.code = WarningCode::members_overlap,
+                   .member = "members/" + std::to_string(o.member),
+                   .detail = "it is up to " + brief(o.depth) + " mm deep in " +
+                             (name.empty() ? at_other(o.body) : name) + ", at " + brief(o.at.x()) +
+                             ", " + brief(o.at.y()) + ", " + brief(o.at.z()) +
+                             " mm, and no joint names the two"});
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<End> detail::end_at(const FrameSpec& spec, std::size_t index) {
@@ -258,10 +289,12 @@ Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop) {
   TRY(out.pieces, detail::pieces(spec, joined, stop));
   out.not_cut = not_cut(spec, joined);
   out.warnings = warnings(joined);
-  TRY(const auto shared,
-      joint::overlaps(joined.node, joined.nodes, {}, stop, detail::seats_of_others(spec, joined)));
+  const auto beside = detail::seats_of_others(spec, joined);
+  TRY(const auto shared, joint::overlaps(joined.node, joined.nodes, {}, stop, beside));
+  TRY(auto entering, warnings_of_others(spec, joined, beside, stop));
   for (auto& warning : joint::warnings_of(joined.node, shared))
     out.warnings.push_back(std::move(warning));
+  for (auto& warning : entering) out.warnings.push_back(std::move(warning));
   out.joints = std::move(joined.joints);
   return out;
 }

@@ -250,6 +250,10 @@ tl::unexpected<Error> too_many(std::size_t pairs, std::size_t most, const char* 
 
 }  // namespace
 
+tl::unexpected<Error> too_many_overlaps(std::size_t pairs) {
+  return too_many(pairs, kMostOverlaps, "share metal");
+}
+
 Result<std::vector<Overlap>> overlaps(const NodeSpec& spec, const Nodes& nodes,
                                       std::optional<std::size_t> only, const std::stop_token& stop,
                                       const Beside& beside) {
@@ -272,7 +276,7 @@ Result<std::vector<Overlap>> overlaps(const NodeSpec& spec, const Nodes& nodes,
         return out.size() <= kMostOverlaps;
       }))
     return fail({.code = ErrorCode::cancelled});
-  if (out.size() > kMostOverlaps) return too_many(out.size(), kMostOverlaps, "share metal");
+  if (out.size() > kMostOverlaps) return too_many_overlaps(out.size());
   std::ranges::sort(out, {}, [](const Overlap& o) { return std::pair{o.a, o.b}; });
   return out;
 }

@@ -41,6 +41,9 @@ using Beside = std::vector<std::vector<Cutter>>;
                                                     const std::stop_token& stop = {},
                                                     const Beside& beside = {});
 
+/// Returns the error of more than `kMostOverlaps`.
+[[nodiscard]] tl::unexpected<Error> too_many_overlaps(std::size_t pairs);
+
 /// Returns one warning for each pair, at its earlier member; with `only`, at that one.
 [[nodiscard]] std::vector<Warning> warnings_of(const NodeSpec& spec,
                                                const std::vector<Overlap>& overlaps,
