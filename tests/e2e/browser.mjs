@@ -24,25 +24,27 @@ export async function open(browser, origin, hash = '', {width = 1280, height = 8
   return page;
 }
 
-/** Waits for `count` answers, drawn in 3D too. */
-export async function answered(page, count = 1) {
+/** Waits for `count` answers and for that to the last of at least `questions`, drawn in 3D too. */
+export async function answered(page, count = 1, questions = 1) {
   // No waitForFunction: it evaluates text, which the page's Content-Security-Policy forbids.
-  const arrived = await page.evaluate(async (n) => {
+  const arrived = await page.evaluate(async ([n, least]) => {
+    const {dataset} = document.body;
     const end = Date.now() + 20000;
-    while (Number(document.body.dataset.answers ?? 0) < n && Date.now() < end) await new Promise((done) => setTimeout(done, 5));
+    const here = () => Number(dataset.answers ?? 0) >= n && Number(dataset.asked ?? 0) >= least && dataset.answered === dataset.asked;
+    while (!here() && Date.now() < end) await new Promise((done) => setTimeout(done, 5));
     await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-    return Number(document.body.dataset.answers ?? 0) >= n;
-  }, count);
-  if (!arrived) throw new Error(`no answer ${count} in 20 s`);
+    return here();
+  }, [count, questions]);
+  if (!arrived) throw new Error(`no answer ${count} to question ${questions} in 20 s`);
 }
 
 export const answers = (page) => page.evaluate(() => Number(document.body.dataset.answers ?? 0));
 
-/** Does something and waits for the answer to it. */
+/** Does something and waits for the answer to it: on a slow machine one to a question before it may arrive in between. */
 export async function then(page, act) {
-  const before = await answers(page);
+  const before = await page.evaluate(() => Number(document.body.dataset.asked ?? 0));
   await act();
-  await answered(page, before + 1);
+  await answered(page, 1, before + 1);
 }
 
 /** The form, which a phone shows on demand. */

@@ -58,6 +58,7 @@ export class Console {
   private draft = newId();
   private taken: Row[] | undefined; // out of the request, when the preset was pressed
   private askedJob = 0;
+  private questions = 0;
   private drawnJob = 0; // the one that the pictures are of
   private written = '';
   private writtenJob = 0;
@@ -150,7 +151,7 @@ export class Console {
       this.form.show({properties: {}}, {});
     });
     document.title = 'tubecut';
-    this.told();
+    this.told(this.countQuestion());
   }
 
   open(endpoint: string, name?: string): void {
@@ -244,6 +245,7 @@ export class Console {
 
   compute(): void {
     const job = this.job.value;
+    const asked = this.countQuestion();
     this.program.value = undefined;
     this.latest.run(async (signal) => {
       if (job !== this.job.value) return;
@@ -255,7 +257,7 @@ export class Console {
         const reply = await ask(endpoint, body, signal);
         const {answer} = body['columns'] ? await ask(endpoint, without(body, new Set(['columns'])), signal) : reply; // of some columns no picture can be drawn
         const picture = answer && !signal.aborted ? await pictured(endpoint, body, answer, this.context) : undefined;
-        if (job === this.job.value && !signal.aborted) batch(() => this.take(reply, picture));
+        if (job === this.job.value && !signal.aborted) batch(() => this.take(reply, picture, asked));
       } finally {
         clearTimeout(busy);
         document.body.classList.remove('busy');
@@ -266,7 +268,7 @@ export class Console {
   }
 
   /** An answer is drawn; a problem leaves the last pictures, faded, and marks its fields. */
-  private take(reply: Reply, picture: Picture | Error | undefined): void {
+  private take(reply: Reply, picture: Picture | Error | undefined, asked: number): void {
     this.reply.value = reply;
     if (gone(reply)) this.watch.begin(() => this.compute());
     else this.watch.end();
@@ -290,12 +292,21 @@ export class Console {
       }
       // no picture of another job next to a refusal
     } else if (this.drawnJob !== this.job.value) this.clear();
-    this.told();
+    this.told(asked);
   }
 
-  /** Counts the page's messages, for those who wait for one. */
-  private told(): void {
-    document.body.dataset['answers'] = String(Number(document.body.dataset['answers'] ?? 0) + 1);
+  /** Numbers a question; the page shows the last one, because a test waits until that one, and not an earlier one, is answered. */
+  private countQuestion(): number {
+    this.questions += 1;
+    document.body.dataset['asked'] = String(this.questions);
+    return this.questions;
+  }
+
+  /** Counts the page's messages, and says which question the last of them answers. */
+  private told(asked: number): void {
+    const {dataset} = document.body;
+    dataset['answers'] = String(Number(dataset['answers'] ?? 0) + 1);
+    dataset['answered'] = String(asked);
   }
 
   /** Shows an error of the drawing above the pictures. */
