@@ -109,29 +109,35 @@ struct BevelTables {
     if (spec.section) return section_bevel_csv(spec, *out.of_section, spec.columns, caption);
     return bevel_table_csv(spec, out, spec.columns, caption);
   }
-  template <auto Print>
+  /// `PrintSection`: nullptr if the format prints round targets only.
+  template <auto Print, auto PrintSection = nullptr>
   static std::string print(const Spec& spec, const Out& out, const Caption& caption) {
-    if (spec.section) throw no_format_of_section("csv");
     auto named = caption;
     named.partners = partner_names(caption.request, cutter_ids(spec.source), spec.partners.size());
-    return Print(spec, out, named);
+    if (!spec.section) return Print(spec, out, named);
+    if constexpr (std::is_null_pointer_v<decltype(PrintSection)>) {
+      throw no_format_of_section("csv, svg, pdf, dxf, stl and glb");
+    } else {
+      refuse_section_view(caption);
+      return PrintSection({spec.section->section, spec, *out.of_section}, named);
+    }
   }
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &print_csv},
         {"svg",
          "image/svg+xml",
-         &print<bevel_table_svg>,
+         &print<bevel_table_svg, section_bevel_svg>,
          {"chart", "template", "section", "b_curve"},
          {"mirror", "paper"}},
         {"pdf",
          "application/pdf",
-         &print<bevel_table_pdf>,
+         &print<bevel_table_pdf, section_bevel_pdf>,
          {"template", "section"},
          {"mirror", "paper"}},
-        {"dxf", "image/vnd.dxf", &print<bevel_table_dxf>, {"template", "tube"}},
-        {"glb", "model/gltf-binary", &print<bevel_table_gltf>},
-        {"stl", "model/stl", &print<bevel_table_stl>, {"after", "before"}},
+        {"dxf", "image/vnd.dxf", &print<bevel_table_dxf, section_bevel_dxf>, {"template", "tube"}},
+        {"glb", "model/gltf-binary", &print<bevel_table_gltf, section_bevel_gltf>},
+        {"stl", "model/stl", &print<bevel_table_stl, section_bevel_stl>, {"after", "before"}},
         {"step", "model/step", &print<bevel_table_step>, {"smooth", "straight"}},
         {"nc1", "application/x-dstv", &print<bevel_table_dstv>, {}, {}, false, true},
         {"gcode", "text/x-gcode", &print<bevel_table_gcode>, {}, gcode_options(), true, true}};

@@ -96,30 +96,31 @@ struct Intersections {
   }
 
   static std::string print_csv(const Spec& spec, const Out& out, const Caption& caption) {
-    return spec.section ? section_csv(*out.of_section, caption)
-                        : print<intersection_csv>(spec, out, caption);
+    if (spec.section) return section_csv(*out.of_section, caption);
+    return intersection_csv(spec, out, caption);
   }
-  template <auto Print>
+  template <auto Print, auto PrintSection>
   static std::string print(const Spec& spec, const Out& out, const Caption& caption) {
-    if (spec.section) throw no_format_of_section("csv");
     auto named = caption;
     named.partners = partner_names(caption.request, cutter_ids(spec.source), spec.partners.size());
-    return Print(spec, out, named);
+    if (!spec.section) return Print(spec, out, named);
+    refuse_section_view(caption);
+    return PrintSection(spec.section->section, *out.of_section, named);
   }
   static const std::vector<Format<Spec, Out>>& formats() {
     static const std::vector<Format<Spec, Out>> kFormats{
         {"csv", "text/csv", &print_csv},
         {"svg",
          "image/svg+xml",
-         &print<intersection_svg>,
+         &print<intersection_svg, section_svg>,
          {"chart", "template", "section"},
          {"mirror", "paper"}},
         {"pdf",
          "application/pdf",
-         &print<intersection_pdf>,
+         &print<intersection_pdf, section_pdf>,
          {"template", "section"},
          {"mirror", "paper"}},
-        {"dxf", "image/vnd.dxf", &print<intersection_dxf>, {"template", "tube"}}};
+        {"dxf", "image/vnd.dxf", &print<intersection_dxf, section_dxf>, {"template", "tube"}}};
     return kFormats;
   }
 };

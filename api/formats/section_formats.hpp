@@ -20,6 +20,35 @@ namespace tubecut::api {
                                             const std::vector<std::string>& columns,
                                             const Caption& caption);
 
+/// The curves over the girth of each surface, or their template (wrap_template.hpp).
+[[nodiscard]] std::string section_svg(const section::Section& section,
+                                      const joint::SectionIntersection& cut,
+                                      const Caption& caption);
+[[nodiscard]] std::string section_pdf(const section::Section& section,
+                                      const joint::SectionIntersection& cut,
+                                      const Caption& caption);
+/// The developed curves; view `tube`: on the tube in space.
+[[nodiscard]] std::string section_dxf(const section::Section& section,
+                                      const joint::SectionIntersection& cut,
+                                      const Caption& caption);
+
+/// A target that is not round, and what its table is of.
+struct SectionCut {
+  const section::Section& section;
+  const bevel::TableSpec& spec;
+  const bevel::SectionTable& table;
+};
+/// B and the edges over the girth, or the template.
+[[nodiscard]] std::string section_bevel_svg(const SectionCut& cut, const Caption& caption);
+[[nodiscard]] std::string section_bevel_pdf(const SectionCut& cut, const Caption& caption);
+[[nodiscard]] std::string section_bevel_dxf(const SectionCut& cut, const Caption& caption);
+/// The solid end (mesh/cut_solid.hpp).
+[[nodiscard]] std::string section_bevel_stl(const SectionCut& cut, const Caption& caption);
+[[nodiscard]] std::string section_bevel_gltf(const SectionCut& cut, const Caption& caption);
+
+/// Throws UnfitOption if the view is `section`, because that shows a round wall.
+void refuse_section_view(const Caption& caption);
+
 /// Returns what a format throws if it prints round targets only; `offered` names the formats that
 /// print a section.
 [[nodiscard]] UnfitOption no_format_of_section(std::string_view offered);

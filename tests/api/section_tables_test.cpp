@@ -216,7 +216,7 @@ TEST(SectionTables, CsvHasTheColumnsAndOtherFormatsNameIt) {
   ASSERT_FALSE(csv.outcome.error) << csv.outcome.body.substr(0, 500);
   EXPECT_NE(csv.outcome.body.find("# b_sign: outer_edge_into_part"), std::string::npos);
   EXPECT_NE(csv.outcome.body.find("girth_mm,normal_deg,face,on_corner,wall_mm"), std::string::npos);
-  for (const char* format : {"svg", "pdf", "dxf", "glb", "stl", "step", "nc1"}) {
+  for (const char* format : {"step", "nc1"}) {
     const auto other = post(kTables, std::string_view(body), std::string("format=") + format);
     ASSERT_TRUE(other.outcome.error) << format;
     EXPECT_NE(other.outcome.body.find("csv"), std::string::npos) << format;

@@ -145,14 +145,16 @@ TEST(Sections, OtherEndpointsNameWhoCutsThem) {
   EXPECT_TRUE(named) << answer.outcome.body;
 }
 
-TEST(Sections, CsvHasThePlacesAndOtherFormatsSayWhatThereIs) {
+TEST(Sections, CsvHasThePlacesAndAViewOfRoundWallsIsRefused) {
   const auto body = api::dump(k_joint());
   const auto csv = post(kCurves, std::string_view(body), "format=csv");
   ASSERT_FALSE(csv.outcome.error) << csv.outcome.body.substr(0, 500);
   EXPECT_NE(csv.outcome.body.find("surface,girth_mm,normal_deg,face,on_corner"), std::string::npos);
-  const auto dxf = post(kCurves, std::string_view(body), "format=dxf");
-  ASSERT_TRUE(dxf.outcome.error);
-  EXPECT_NE(dxf.outcome.body.find("csv"), std::string::npos);
+  for (const char* query : {"format=svg", "format=svg&view=template", "format=pdf", "format=dxf"})
+    EXPECT_FALSE(post(kCurves, std::string_view(body), query).outcome.error) << query;
+  const auto wall = post(kCurves, std::string_view(body), "format=svg&view=section");
+  ASSERT_TRUE(wall.outcome.error);
+  EXPECT_NE(wall.outcome.body.find("template"), std::string::npos);
 }
 
 TEST(Sections, SizesAreListedAsideFromRoundOnes) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "api/formats/drawing/part_edges.hpp"
+#include "api/formats/numbers.hpp"
 #include "core/base/elementary.hpp"
 
 namespace tubecut::api {
@@ -102,6 +103,79 @@ Development developed(const joint::IntersectionSpec& spec, const joint::Intersec
   return out;
 }
 
+namespace {
+
+/// A curve over places of an outline, or of the outside.
+CylinderCurve round_the_section(double girth, std::vector<double> s, std::vector<double> z) {
+  const double radius = girth / kTwoPi;
+  // The first place may be just before the datum, by rounding.
+  if (s.size() > 1 && s.front() > s[1]) s.front() -= girth;
+  for (double& v : s) v = std::max(0.0, v) / radius;
+  return round_the_tube(radius, std::move(s), std::move(z));
+}
+
+std::vector<double> shares(const std::vector<section::Station>& at, double radius) {
+  std::vector<double> out;
+  for (const auto& one : at) out.push_back(one.s / radius);
+  return out;
+}
+
+Development of_section(const section::Section& section) {
+  return {.outer_radius = section.outer().girth() / kTwoPi,
+          .wall = section.wall,
+          .cuts = {},
+          .junctions = {},
+          .section = section};
+}
+
+}  // namespace
+
+Development developed(const section::Section& section, const joint::SectionIntersection& cut,
+                      BoreOn on) {
+  const section::Wall wall(section);
+  const bool outside = on == BoreOn::outside;
+  const double bore_girth = (outside ? wall.outer() : wall.bore()).girth();
+  auto out = of_section(section);
+  CutOutline outline{.name = "intersection", .outer = {}, .inner = {}, .torch = {}};
+  for (const auto& profile : cut.profiles) {
+    std::vector<double> s;
+    for (const auto& at : profile.at)
+      s.push_back(!profile.outer && outside ? wall.outside_of(at) : at.s);
+    auto& curve = profile.outer ? outline.outer : outline.inner;
+    curve = round_the_section(profile.outer ? profile.girth : bore_girth, std::move(s), profile.z);
+    if (profile.outer)
+      for (const auto& event : profile.events)
+        if (event.kind != joint::SectionEventKind::seam)
+          out.junctions.push_back(event.s / out.outer_radius);
+    if (profile.outer || out.spans.empty())
+      out.spans =
+          spans_of(shares(profile.at, profile.girth / kTwoPi), profile.z, profile.cutter, false);
+  }
+  out.cuts.push_back(std::move(outline));
+  return out;
+}
+
+Development developed(const section::Section& section, const bevel::SectionTable& t, BoreOn on) {
+  const section::Wall wall(section);
+  auto out = of_section(section);
+  std::vector<double> s, bore, scrap;
+  for (std::size_t i = 0; i < t.at.size(); ++i) {
+    s.push_back(t.at[i].s);
+    bore.push_back(on == BoreOn::outside ? t.at[i].s : wall.across(t.at[i]).bore.s);
+    scrap.push_back(std::min(t.z_outer[i], t.z_inner[i]));
+  }
+  const double bore_girth = (on == BoreOn::outside ? wall.outer() : wall.bore()).girth();
+  out.cuts.push_back({.name = "cut end",
+                      .outer = round_the_section(t.girth, s, t.z_outer),
+                      .inner = round_the_section(bore_girth, std::move(bore), t.z_inner),
+                      .torch = round_the_section(t.girth, s, t.torch_outer)});
+  out.spans = spans_of(shares(t.at, out.outer_radius), scrap, t.cutter, false);
+  for (const auto& event : t.outer_events)
+    if (event.kind != joint::SectionEventKind::seam)
+      out.junctions.push_back(event.s / out.outer_radius);
+  return out;
+}
+
 std::string for_branch(const std::string& hole, const std::string& branch) {
   return branch.empty() ? hole : hole + " for " + branch;
 }
@@ -160,6 +234,12 @@ Development developed(const part::PartSpec& spec, const part::Part& part) {
   out.whole = true;
   out.name = spec.name;
   return out;
+}
+
+std::string tube_size(const Development& d) {
+  if (!d.section) return number(2.0 * d.outer_radius, Unit::mm) + " x " + mm(d.wall);
+  return number(d.section->height, Unit::mm) + " x " + number(d.section->width, Unit::mm) + " x " +
+         mm(d.wall) + ", corner radius " + mm(d.section->corner);
 }
 
 LabelPlace label_place(const CutOutline& hole) {

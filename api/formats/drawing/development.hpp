@@ -1,12 +1,16 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/bevel/hole/hole.hpp"
+#include "core/bevel/section/section_table.hpp"
 #include "core/bevel/table/table.hpp"
 #include "core/joint/intersection.hpp"
+#include "core/joint/section/section_intersection.hpp"
 #include "core/part/part.hpp"
+#include "core/section/section.hpp"
 
 namespace tubecut::api {
 
@@ -42,16 +46,18 @@ struct PartnerSpan {
   bool finish = false;  // of a part
 };
 
-/// A bent surface laid flat: x = radius * phi, y = z. Frame of the result it comes from.
+/// A bent surface laid flat: x = radius * phi, y = z. Frame of the result it comes from. On a
+/// section, phi is the share of its girth in rad, and the radius that of a circle of this girth.
 struct Development {
   double outer_radius = 0.0;
   double wall = 0.0;
   std::vector<CutOutline> cuts;
   std::vector<double> junctions;  // phi, rad, on the surface that holds the root
   std::vector<PartnerSpan> spans = {};
-  std::vector<part::Mark> marks = {};  // of a part
-  bool whole = false;                  // a part, with both its ends
-  std::string name = {};               // of a part, or of a chord that has holes only
+  std::vector<part::Mark> marks = {};            // of a part
+  bool whole = false;                            // a part, with both its ends
+  std::string name = {};                         // of a part, or of a chord that has holes only
+  std::optional<section::Section> section = {};  // of a tube that is not round
 
   /// Whether a cut goes round the tube; else there are holes only.
   [[nodiscard]] bool around() const;
@@ -61,6 +67,14 @@ struct Development {
 [[nodiscard]] Development developed(const joint::IntersectionSpec& spec,
                                     const joint::Intersection& cut);
 [[nodiscard]] Development developed(const NamedHole& spec, const bevel::HoleCut& cut);
+
+/// Where the edge of a section's bore is drawn: on the outline of the bore, whose girth is smaller,
+/// or outside, where the lines across the wall begin.
+enum class BoreOn { bore, outside };
+[[nodiscard]] Development developed(const section::Section& section,
+                                    const joint::SectionIntersection& cut, BoreOn on);
+[[nodiscard]] Development developed(const section::Section& section,
+                                    const bevel::SectionTable& table, BoreOn on);
 /// Returns "hole for B2", if the branch has a name.
 [[nodiscard]] std::string for_branch(const std::string& hole, const std::string& branch);
 /// One hole of a chord, by a name.
@@ -69,6 +83,10 @@ struct Development {
 /// A part as it is cut: start, finish, then the holes and the cut-outs in their
 /// order, in the part's frame.
 [[nodiscard]] Development developed(const part::PartSpec& spec, const part::Part& part);
+
+/// Returns "60.3 x 4 mm", or "100 x 50 x 4 mm, corner radius 8 mm" of a section: height along x
+/// first.
+[[nodiscard]] std::string tube_size(const Development& development);
 
 /// Position of a hole's label on the outside, its middle at phi: in the hole, below its upper edge
 /// and clear of a mark at its middle; above the hole if it is too small. `room`: mm, for its width.

@@ -19,6 +19,7 @@ constexpr Stroke kSeam{.color = "#1d242b", .width = 0.35};
 constexpr Stroke kQuarter{.color = "#7a8794", .width = 0.15, .dashes = "2 2"};
 constexpr Stroke kJunction{.color = "#b9770e", .width = 0.15, .dashes = "1 2"};
 constexpr Stroke kMark{.color = "#2b6ca3", .width = 0.3};
+constexpr Stroke kCorner{.color = "none", .width = 0.0, .fill = "#f4f1ea"};
 constexpr Stroke kGlue{.color = "#7a8794", .width = 0.2, .dashes = "1 1", .fill = "#f1f3f5"};
 
 /// Returns the degrees between two marks of the phi scale, for a distance of at least 9 mm.
@@ -38,12 +39,17 @@ class Drawing {
              {field.width(), field.height() + kScaleRoom}} {}
 
   TemplateDrawing drawn() {
-    if (d_.around())
+    if (d_.section)
+      seam_and_faces(*d_.section);
+    else if (d_.around())
       seam_and_quarters();
     else
       generator_zero();
     datum();
-    scale();
+    if (d_.section)
+      girth_scale();
+    else
+      scale();
     out_.all.begin_clip({0.0, 0.0}, {field_.width(), field_.height()});
     for (std::size_t i = 0; i < d_.cuts.size(); ++i) outline(d_.cuts[i], i);
     for (const auto& mark : d_.marks) draw(mark);
@@ -58,13 +64,16 @@ class Drawing {
     out_.all.line(at(x_of(phi), field_.z_from), at(x_of(phi), field_.z_datum), stroke, id);
   }
 
-  void seam_and_quarters() {
+  void seam_and_tab() {
     const auto low = at(field_.x_to, field_.z_from), high = at(field_.x_to, field_.z_datum);
     const double out = caption_.options.mirror ? -field_.tab : field_.tab;
     out_.all.polyline({low, {low.x + out, low.y + 6.0}, {high.x + out, high.y - 6.0}, high}, kGlue,
                       "seam-tab", true);
     upright(0.0, kSeam, "seam-0");
     upright(kTwoPi, kSeam, "seam-360");
+  }
+  void seam_and_quarters() {
+    seam_and_tab();
     for (int i = 1; i < 4; ++i) upright(0.25 * i * kTwoPi, kQuarter);
     constexpr double kAgain = 120.0;  // mm: a page of a long part labels its quarters
     for (double z = field_.z_from + 0.5 * kAgain; d_.whole && z < field_.z_datum; z += kAgain)
@@ -74,6 +83,43 @@ class Drawing {
                       {.height = 2.4, .color = "#56626e"});
       }
     for (const double phi : d_.junctions) upright(phi, kJunction);
+  }
+  /// Draws the strips of the corners, to crease on the tube, and names the faces.
+  void seam_and_faces(const section::Section& section) {
+    const auto curve = section.outer();
+    for (int corner = 1; corner <= 4; ++corner) {
+      const double from = curve.on_corner(corner, 0.0), to = curve.on_corner(corner, 0.5 * kPi);
+      out_.all.rectangle(at(from, field_.z_from), at(to, field_.z_datum), kCorner);
+      for (const double s : {from, to})
+        out_.all.line(at(s, field_.z_from), at(s, field_.z_datum), kQuarter);
+    }
+    seam_and_tab();
+    const double girth = curve.girth(), half = 0.5 * curve.half_flat(1);
+    name_face("1, up", half, 2.0 * half);
+    name_face("1, up", girth - half, 2.0 * half);
+    for (int face = 2; face <= 4; ++face)
+      name_face(std::to_string(face), curve.on_face(face, 0.0), 2.0 * curve.half_flat(face));
+    for (const double phi : d_.junctions) upright(phi, kJunction);
+  }
+  void name_face(const std::string& name, double s, double room) {
+    const auto place = at(s, field_.z_datum);
+    const std::string text = "face " + name;
+    const Lettering l{.height = 2.4, .anchor = Anchor::middle, .color = "#56626e"};
+    if (text_width(text, l.height) < room) out_.all.text({place.x, place.y - 4.0}, text, l);
+  }
+  void girth_scale() {
+    const double girth = field_.x_to, step = girth > 400.0 ? 20.0 : 10.0;
+    for (double s = 0.0; s <= girth; s += step) {
+      const auto top = at(s, field_.z_datum);
+      out_.all.line(top, {top.x, top.y + 2.0}, {.width = 0.2});
+      const bool first = s == 0.0;
+      out_.all.text({top.x, top.y + 3.0}, number(s, Unit::mm),
+                    {.height = 2.4,
+                     .anchor = !first                    ? Anchor::middle
+                               : caption_.options.mirror ? Anchor::end
+                                                         : Anchor::start});
+    }
+    way_round("girth, mm");
   }
   void generator_zero() {
     for (const double phi : {-kTwoPi, 0.0, kTwoPi})
@@ -98,21 +144,20 @@ class Drawing {
       out_.all.text({top.x, top.y + 3.0}, number(step * i, Unit::deg),
                     {.height = 2.4, .anchor = anchor});
     }
-    way_of_phi();
+    way_round("phi, °");
   }
   /// Draws an arrow over the scale, its name behind its tail, or before its head if the tail is off
   /// the sheet.
-  void way_of_phi() {
-    constexpr std::string_view kName = "phi, °";
+  void way_round(std::string_view name) {
     constexpr double kHeight = 2.2;
     const double y = field_.height() + 7.2, middle = 0.5 * (field_.x_from + field_.x_to);
     const double reach = std::min(10.0, 0.3 * (field_.x_to - field_.x_from));
     const double tail = at(middle - reach, 0.0).x, tip = at(middle + reach, 0.0).x;
     draw_arrow(out_.all, {tail, y}, {tip, y}, {.color = "#56626e", .width = 0.2});
-    const double back = tip > tail ? -1.0 : 1.0, width = text_width(kName, kHeight) + 2.0;
+    const double back = tip > tail ? -1.0 : 1.0, width = text_width(name, kHeight) + 2.0;
     const bool room = tail + back * width >= 0.0 && tail + back * width <= field_.width();
     const double side = room ? back : -back;
-    out_.all.text({(room ? tail : tip) + side, y - 0.8}, kName,
+    out_.all.text({(room ? tail : tip) + side, y - 0.8}, name,
                   {.height = kHeight,
                    .anchor = side < 0.0 ? Anchor::end : Anchor::start,
                    .color = "#56626e"});

@@ -195,7 +195,8 @@ void TemplateLabels::draw(Canvas& canvas, const DrawingBox& window, DrawingPoint
   const double tab =
       field_.mirrored ? 0.5 * surface.low.x : 0.5 * (surface.high.x + field_.width());
   w.room = moved(shown, by);
-  w.put({tab + by.x + 0.8, 0.5 * (shown.low.y + shown.high.y) + by.y}, "glue below phi 0",
+  w.put({tab + by.x + 0.8, 0.5 * (shown.low.y + shown.high.y) + by.y},
+        d_.section ? "glue below girth 0" : "glue below phi 0",
         {.height = 2.4, .anchor = Anchor::middle, .turn = 90.0, .color = kGrey});
 }
 

@@ -27,11 +27,13 @@ std::string way_up(const Development& d) {
 std::vector<std::string> header(const Development& d, const TemplateField& field,
                                 const Caption& c) {
   std::vector<std::string> lines{
-      "Tube " + number(2.0 * d.outer_radius, Unit::mm) + " x " + mm(d.wall) + ", circumference " +
-          mm(kTwoPi * d.outer_radius) + ", scale 1:1, wrap round the outside",
+      "Tube " + tube_size(d) + ", circumference " + mm(kTwoPi * d.outer_radius) +
+          ", scale 1:1, wrap round the outside",
       way_up(d) + "; " +
           (c.options.mirror ? "MIRRORED: print side towards the tube" : "print side out"),
-      "blue: outer edge; green dashed: inner edge, at its phi; red: torch line on the outer wall",
+      "blue: outer edge; green dashed: inner edge, " +
+          std::string(d.section ? "square under its place" : "at its phi") +
+          "; red: torch line on the outer wall",
       "datum z = " + mm(field.z_datum) + " from " +
           (d.whole ? "the start's long point" : "the frame's origin"),
       job_line({.reference = {}, .input_sha256 = c.input_sha256, .result_sha256 = {}, .view = {}})};

@@ -18,7 +18,8 @@ constexpr double kMargin = 20.0;
 constexpr double kCross = 5.0;  // mm, half of a mark's cross
 
 constexpr DxfWriter::Layer kCutOuter{"CUT_OUTER", 5}, kCutInner{"CUT_INNER", 3},
-    kTorch{"TORCH", 30}, kSeam{"SEAM", 1}, kDatum{"DATUM", 8}, kText{"TEXT", 7}, kMark{"MARK", 6};
+    kTorch{"TORCH", 30}, kSeam{"SEAM", 1}, kDatum{"DATUM", 8}, kText{"TEXT", 7}, kMark{"MARK", 6},
+    kFace{"FACE", 9};
 
 std::vector<Eigen::Vector2d> flat(const CylinderCurve& c) {
   std::vector<Eigen::Vector2d> out;
@@ -29,6 +30,24 @@ std::vector<Eigen::Vector2d> flat(const CylinderCurve& c) {
 Eigen::Vector3d on_wall(double radius, double phi, double z) {
   const auto [sin, cos] = elementary::sincos(phi);
   return {radius * cos, radius * sin, z};
+}
+
+/// The closed curve on a section's outline in space. Between two places of one arc, further points
+/// keep the chord within kChord.
+std::vector<Eigen::Vector3d> in_space(const section::Curve& outline, const CylinderCurve& c) {
+  std::vector<Eigen::Vector3d> out;
+  for (std::size_t i = 0; i + 1 < c.phi.size(); ++i) {
+    const double from = c.radius * c.phi[i], by = c.radius * (c.phi[i + 1] - c.phi[i]);
+    const double bent = outline.at(from + 0.5 * by).curvature;
+    const double step = 2.0 * elementary::acos(1.0 - std::min(1.0, kChord * bent));  // rad
+    const int parts = bent > 0.0 ? std::max(1, static_cast<int>(std::ceil(by * bent / step))) : 1;
+    for (int k = 0; k < parts; ++k) {
+      const double share = static_cast<double>(k) / parts;
+      const auto at = outline.at(from + share * by);
+      out.emplace_back(at.point.x(), at.point.y(), c.z[i] + share * (c.z[i + 1] - c.z[i]));
+    }
+  }
+  return out;
 }
 
 /// The closed curve in space; a curve round the tube gives its last point only once.
@@ -78,9 +97,11 @@ std::vector<std::string> captions(const Development& d, const std::string& frame
                                   const Caption& caption) {
   const auto chord = "openings of the chord" + (d.name.empty() ? "" : " " + d.name) + ", tube ";
   std::vector<std::string> out{
-      (d.around() ? "tube " : chord) + number(2.0 * d.outer_radius, Unit::mm) + " x " + mm(d.wall),
-      "CUT_OUTER on radius " + mm(d.outer_radius) + ", CUT_INNER on radius " +
-          mm(d.outer_radius - d.wall),
+      (d.around() ? "tube " : chord) + tube_size(d),
+      d.section ? "CUT_OUTER round the outside, " + mm(d.section->outer().girth()) +
+                      ", CUT_INNER round the bore, " + mm(d.section->bore().girth())
+                : "CUT_OUTER on radius " + mm(d.outer_radius) + ", CUT_INNER on radius " +
+                      mm(d.outer_radius - d.wall),
       frame};
   if (std::ranges::any_of(d.cuts, [](const auto& cut) { return !cut.torch.empty(); }))
     out.emplace_back("TORCH: its axis on the outer surface, the kerf applied; no edge of the part");
@@ -97,15 +118,23 @@ std::vector<std::string> captions(const Development& d, const std::string& frame
   return out;
 }
 
+/// The outside at one z in space.
+std::vector<Eigen::Vector3d> all_round(const Development& d, double z) {
+  if (!d.section)
+    return in_space({.radius = d.outer_radius, .phi = {0.0, kTwoPi}, .z = {z, z}}, true);
+  const auto outline = d.section->outer();
+  CylinderCurve round{.radius = d.outer_radius, .phi = {0.0}, .z = {z}};
+  for (const double s : outline.seams()) round.phi.push_back(s / d.outer_radius);
+  round.phi.push_back(kTwoPi);
+  round.z.resize(round.phi.size(), z);
+  return in_space(outline, round);
+}
+
 void seams(DxfWriter& w, const Development& d, const Extent& e, double datum, bool space) {
   if (space) {
-    std::vector<Eigen::Vector3d> circle =
-        in_space({.radius = d.outer_radius, .phi = {0.0, kTwoPi}, .z = {datum, datum}}, true);
-    w.polyline(kDatum, circle, true);
-    w.polyline(kSeam,
-               std::vector<Eigen::Vector3d>{on_wall(d.outer_radius, 0.0, e.z_from),
-                                            on_wall(d.outer_radius, 0.0, datum)},
-               false);
+    const double seam = d.section ? 0.5 * d.section->height : d.outer_radius;  // x, at phi = 0
+    w.polyline(kDatum, all_round(d, datum), true);
+    w.polyline(kSeam, std::vector{on_wall(seam, 0.0, e.z_from), on_wall(seam, 0.0, datum)}, false);
     return;
   }
   const double from = d.around() ? 0.0 : d.outer_radius * e.phi_from - kMargin;
@@ -114,6 +143,9 @@ void seams(DxfWriter& w, const Development& d, const Extent& e, double datum, bo
   w.polyline(kDatum, std::vector<Eigen::Vector2d>{{from, datum}, {to, datum}}, false);
   double foot = e.z_from;
   if (d.around() && !d.cuts.front().outer.empty()) foot = d.cuts.front().outer.z.front();
+  if (d.section)
+    for (const double s : d.section->outer().seams())
+      w.polyline(kFace, std::vector<Eigen::Vector2d>{{s, e.z_from}, {s, datum}}, false);
   for (const double x : {0.0, kTwoPi * d.outer_radius})
     if (x >= from && x <= to)
       w.polyline(kSeam, std::vector<Eigen::Vector2d>{{x, foot}, {x, datum}}, false);
@@ -123,10 +155,13 @@ void draw_cuts(DxfWriter& w, const Development& d, bool space) {
   for (const auto& cut : d.cuts) {
     const auto draw = [&](const DxfWriter::Layer& layer, const CylinderCurve& c) {
       if (c.empty()) return;
-      if (space)
-        w.polyline(layer, in_space(c, cut.around), true);
-      else
+      if (!space)
         w.polyline(layer, flat(c), !cut.around);
+      else if (d.section)
+        w.polyline(layer, in_space(&c == &cut.inner ? d.section->bore() : d.section->outer(), c),
+                   true);
+      else
+        w.polyline(layer, in_space(c, cut.around), true);
     };
     draw(kCutOuter, cut.outer);
     draw(kCutInner, cut.inner);
@@ -176,13 +211,17 @@ std::string print_dxf(const Development& d, const Caption& caption) {
   const bool space = caption.view == "tube";
   const auto e = extent(d);
   const double datum = 10.0 * std::ceil((e.z_to + 15.0) / 10.0);
-  DxfWriter w({kCutOuter, kCutInner, kTorch, kSeam, kDatum, kText}, verdict_lines(caption.verdict),
-              caption.stop);
+  auto layers = std::vector{kCutOuter, kCutInner, kTorch, kSeam, kDatum, kText};
+  if (d.section) layers.push_back(kFace);
+  DxfWriter w(layers, verdict_lines(caption.verdict), caption.stop);
   draw_cuts(w, d, space);
   seams(w, d, e, datum, space);
   const double left = d.around() || space ? 0.0 : d.outer_radius * e.phi_from - kMargin;
   double y = datum;
-  const auto frame = "DATUM z = " + mm(datum) + "; SEAM phi = 0 and 360°; y = z, " +
+  const auto frame = "DATUM z = " + mm(datum) +
+                     (d.section ? "; SEAM girth 0, the middle of face 1; FACE where a corner "
+                                  "begins and ends; y = z, "
+                                : "; SEAM phi = 0 and 360°; y = z, ") +
                      (d.around() ? "kept side up" : "kept outside the contour");
   if (!space) name_holes(w, d);
   for (const auto& line : captions(d, frame, caption)) w.text(kText, {left, y += 5.0}, 3.0, line);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "api/formats/mesh/binary.hpp"
 #include "api/formats/mesh/gltf.hpp"
@@ -164,6 +165,87 @@ CutSolid cut_solid(const bevel::TableSpec& spec, const bevel::Table& t, Smoothed
   return out;
 }
 
+namespace {
+
+/// A ring of a section: the place outside, and z along the cut at depths across the wall.
+struct SectionRow {
+  double s = 0.0, z_inner = 0.0, z_outer = 0.0;
+  std::optional<double> z_face;
+};
+
+SectionRow section_row(const bevel::TableSpec& spec, const bevel::SectionTable& t, std::size_t i,
+                       Smoothed which) {
+  SectionRow out{.s = t.at[i].s, .z_inner = t.z_inner[i], .z_outer = t.z_outer[i]};
+  if (!t.z_face.empty()) out.z_face = t.z_face[i];
+  if (which == Smoothed::after) return out;
+  const bool raised =
+      spec.contact == bevel::Contact::inner || spec.contact == bevel::Contact::automatic;
+  const double b = std::clamp(raised ? std::max(t.b_raw[i], t.b_required[i]) : t.b_raw[i],
+                              -kSteepest, kSteepest);
+  const double land = out.z_face ? spec.root_face : 0.0;
+  const double rise = (t.wall[i] - land) * elementary::tan(b);
+  if (spec.root_surface == bevel::RootSurface::inner)
+    out.z_outer = out.z_face.value_or(out.z_inner) + rise;
+  else
+    out.z_inner = out.z_outer - rise;
+  return out;
+}
+
+SectionRow between(const SectionRow& a, const SectionRow& b, double share) {
+  const auto mid = [&](double x, double y) { return x + share * (y - x); };
+  SectionRow out{mid(a.s, b.s), mid(a.z_inner, b.z_inner), mid(a.z_outer, b.z_outer), {}};
+  if (a.z_face) out.z_face = mid(*a.z_face, *b.z_face);
+  return out;
+}
+
+std::vector<Eigen::Vector3d> ring(const section::Wall& wall, const bevel::TableSpec& spec,
+                                  const SectionRow& row, double far) {
+  const auto at = wall.outer().at(row.s);
+  const auto across = wall.across(at);
+  const auto point = [](const Eigen::Vector2d& p, double z) {
+    return Eigen::Vector3d(p.x(), p.y(), z);
+  };
+  std::vector<Eigen::Vector3d> out{point(across.bore.point, row.z_inner)};
+  if (row.z_face)
+    out.push_back(point(at.point - (across.wall - spec.root_face) * at.normal, *row.z_face));
+  out.push_back(point(at.point, row.z_outer));
+  out.push_back(point(at.point, far));
+  out.push_back(point(across.bore.point, far));
+  return out;
+}
+
+}  // namespace
+
+CutSolid cut_solid(const section::Section& section, const bevel::TableSpec& spec,
+                   const bevel::SectionTable& t, Smoothed which, const std::stop_token& stop) {
+  const section::Wall wall(section);
+  double top = t.z_inner.front();
+  for (const auto one : {Smoothed::before, Smoothed::after})
+    for (std::size_t i = 0; i < t.at.size(); ++i) {
+      const auto r = section_row(spec, t, i, one);
+      top = std::max({top, r.z_inner, r.z_outer, r.z_face.value_or(top)});
+    }
+  const double far = top + 0.5 * std::max(section.height, section.width);
+  const bool ends = spec.target.length && *spec.target.length > top + 1e-3;
+  CutSolid out{.rings = {},
+               .cut_points = t.z_face.empty() ? 2U : 3U,
+               .far = ends ? std::min(far, *spec.target.length) : far};
+  for (std::size_t i = 0; i < t.at.size(); ++i) {
+    ask(stop);
+    const auto next = (i + 1) % t.at.size();
+    const auto a = section_row(spec, t, i, which);
+    auto b = section_row(spec, t, next, which);
+    if (next == 0) b.s += t.girth;
+    const double bent = wall.outer().at(0.5 * (a.s + b.s)).curvature;
+    const double step = 2.0 * elementary::acos(1.0 - std::min(1.0, kFacetError * bent));
+    const int parts =
+        bent > 0.0 ? std::max(1, static_cast<int>(std::ceil((b.s - a.s) * bent / step))) : 1;
+    for (int k = 0; k < parts; ++k)
+      out.rings.push_back(ring(wall, spec, between(a, b, static_cast<double>(k) / parts), out.far));
+  }
+  return out;
+}
+
 TriangleMesh closed_mesh(const CutSolid& solid, const std::stop_token& stop) {
   TriangleMesh out;
   std::map<Point, std::uint32_t> known;
@@ -193,7 +275,11 @@ TriangleMesh closed_mesh(const CutSolid& solid, const std::stop_token& stop) {
 std::string print_cut_stl(const bevel::TableSpec& spec, const bevel::Table& table,
                           const Caption& caption) {
   const auto which = caption.view == "before" ? Smoothed::before : Smoothed::after;
-  const auto mesh = closed_mesh(cut_solid(spec, table, which, caption.stop), caption.stop);
+  return print_stl(cut_solid(spec, table, which, caption.stop), caption);
+}
+
+std::string print_stl(const CutSolid& solid, const Caption& caption) {
+  const auto mesh = closed_mesh(solid, caption.stop);
   std::string out = stl_header(caption);
   append_bytes(out, static_cast<std::uint32_t>(mesh.triangles.size()));
   out.reserve(84 + 50 * mesh.triangles.size());
@@ -212,12 +298,19 @@ std::string print_cut_stl(const bevel::TableSpec& spec, const bevel::Table& tabl
 
 std::string print_cut_gltf(const bevel::TableSpec& spec, const bevel::Table& table,
                            const Caption& caption) {
+  const auto of = [&](Smoothed which) {
+    auto solid = cut_solid(spec, table, which, caption.stop);
+    auto shares = hues(solid, caption.stop);
+    return ColouredSolid{std::move(solid), std::move(shares)};
+  };
+  return print_gltf(of(Smoothed::before), of(Smoothed::after), caption);
+}
+
+std::string print_gltf(const ColouredSolid& before, const ColouredSolid& after,
+                       const Caption& caption) {
   std::vector<Mesh> meshes;
-  for (const auto which : {Smoothed::before, Smoothed::after}) {
-    const auto solid = cut_solid(spec, table, which, caption.stop);
-    meshes.push_back(coloured(which == Smoothed::before ? "before" : "after", solid,
-                              hues(solid, caption.stop), caption.stop));
-  }
+  for (const auto& [name, one] : {std::pair{"before", &before}, std::pair{"after", &after}})
+    meshes.push_back(coloured(name, one->solid, one->b_shares, caption.stop));
   return print_gltf(meshes, caption);
 }
 

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "api/wire/format.hpp"
+#include "core/bevel/section/section_table.hpp"
 #include "core/bevel/table/table.hpp"
+#include "core/section/section.hpp"
 
 namespace tubecut::api {
 
@@ -35,6 +37,12 @@ struct CutSolid {
 [[nodiscard]] CutSolid cut_solid(const bevel::TableSpec& spec, const bevel::Table& table,
                                  Smoothed which, const std::stop_token& stop);
 
+/// The same of a section: a ring stands on each row, and on arcs so many more that facets stay
+/// within kFacetError.
+[[nodiscard]] CutSolid cut_solid(const section::Section& section, const bevel::TableSpec& spec,
+                                 const bevel::SectionTable& table, Smoothed which,
+                                 const std::stop_token& stop);
+
 /// Triangles of the closed surface, counter-clockwise seen from outside, on single-precision points
 /// (equal ones merged), because STL has no other.
 struct TriangleMesh {
@@ -42,6 +50,16 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 [[nodiscard]] TriangleMesh closed_mesh(const CutSolid& solid, const std::stop_token& stop);
+
+/// Return binary STL and glTF of a solid; see `print_cut_stl` and `print_cut_gltf`. `b_shares`: of
+/// each ring, B as a fraction of 60 deg.
+struct ColouredSolid {
+  CutSolid solid;
+  std::vector<double> b_shares;
+};
+[[nodiscard]] std::string print_stl(const CutSolid& solid, const Caption& caption);
+[[nodiscard]] std::string print_gltf(const ColouredSolid& before, const ColouredSolid& after,
+                                     const Caption& caption);
 
 /// Returns binary STL, mm. The 80 bytes of its header state the unit, the facet error and the job.
 [[nodiscard]] std::string print_cut_stl(const bevel::TableSpec& spec, const bevel::Table& table,

@@ -1,0 +1,158 @@
+"""The files of tubes that are not round: DXF read by ezdxf, STL by admesh, templates at their size. Sizes, planes and tubes are drawn; every number
+that a file is held to is computed here, from the section's own lengths."""
+
+import math
+import random
+import re
+import xml.etree.ElementTree as xml
+
+from dxf_test import length, polylines, read
+from service import FormatTest, drawing_seed, main
+from stl_test import admesh, area, facets
+
+SVG = "{http://www.w3.org/2000/svg}"
+STANDARDS = {"en_10210": (1.5, 1.0), "en_10219": (2.0, 1.0), "astm_a500": (2.0, 1.0)}  # of walls up to 6 mm
+
+
+def drawn_section(rng):
+    wall = rng.choice([2, 3, 4, 5, 6])
+    height, width = (rng.randrange(10 * wall, 160, 5) for _ in range(2))
+    if rng.random() < 0.25 and height != width:
+        corner = min(height, width) / 2
+        return {"kind": "flat_oval_tube", "height_mm": height, "width_mm": width, "wall_mm": wall}, (height, width, wall, corner, corner - wall)
+    standard = rng.choice(list(STANDARDS))
+    outer, inner = (wall * factor for factor in STANDARDS[standard])
+    return {"kind": "rectangular_tube", "height_mm": height, "width_mm": width, "wall_mm": wall, "corners": standard}, (height, width, wall, outer, inner)
+
+
+def girth(height, width, corner):
+    return 2 * (height + width) - (8 - 2 * math.pi) * corner
+
+
+def wall_area(height, width, wall, outer, inner):
+    return height * width - (height - 2 * wall) * (width - 2 * wall) - (4 - math.pi) * (outer**2 - inner**2)
+
+
+def off_outline(x, y, height, width, corner):
+    """The distance of a place from the outline of a rectangle with round corners."""
+    u, v = abs(x) - height / 2 + corner, abs(y) - width / 2 + corner
+    return math.hypot(max(u, 0), max(v, 0)) + min(max(u, v), 0) - corner
+
+
+def cut_by_plane(rng):
+    """A request whose cut is flush with a plane all round, the plane's height at the axis and its slopes."""
+    target, lengths = drawn_section(rng)
+    slopes = [rng.uniform(-0.6, 0.6) for _ in range(2)]
+    height = rng.uniform(40, 90)
+    return {"target": target, "root_surface": "inner", "contact": "inner", "groove": {"rule": "fixed", "angle_deg": 0}, "kerf_mm": 0,
+            "sampling": {"uniform_points": 60, "tolerance_mm": 0.01}, "smoothing": {"method": "none"}, "torch": {"min_deg": -70, "max_deg": 70},
+            "cutters": [{"kind": "plane", "id": "wall plate", "point_mm": [0, 0, height], "normal": [*slopes, 1]}]}, lengths, (height, *slopes)
+
+
+def cut_by_tube(rng):
+    target, lengths = drawn_section(rng)
+    diameter = 1.5 * math.hypot(lengths[0], lengths[1])
+    return {"target": target, "root_surface": "inner", "groove": {"rule": "half_dihedral"}, "kerf_mm": 2, "smoothing": {"method": "none"},
+            "cutters": [{"kind": "tube", "id": "chord", "outer_diameter_mm": round(diameter, 1), "inclination_deg": rng.uniform(60, 120),
+                         "clocking_deg": rng.uniform(0, 360), "offset_mm": rng.uniform(-5, 5)}], "torch": {"min_deg": -80, "max_deg": 80}}, lengths
+
+
+class SectionFiles(FormatTest):
+    def setUp(self):
+        self.rng = random.Random(drawing_seed())
+
+    def test_solids_have_the_volume_over_a_plane(self):
+        """Over a plane, a symmetric wall has its area times the height at the axis; facets take up to 0.01 mm of their own area."""
+        for n in range(20):
+            body, lengths, (height, *_) = cut_by_plane(self.rng)
+            with self.subTest(n, target=body["target"]):
+                content = self.service.text("bevel-tables", body, "format=stl")
+                counts, parts, got = admesh(content)
+                self.assertEqual({k: v for k, v in counts.items() if v}, {})
+                self.assertEqual(parts, 1)
+                far = max(p[2] for f in facets(content) for p in f)
+                wanted = wall_area(*lengths) * (far - height)
+                self.assertLess(abs(got - wanted), 0.012 * area(content))
+
+    def test_solids_of_other_cuts_are_closed(self):
+        for n in range(10):
+            body, _ = cut_by_tube(self.rng)
+            with self.subTest(n, target=body["target"]):
+                for view in ("after", "before"):
+                    counts, parts, _ = admesh(self.service.text("bevel-tables", body, f"format=stl&view={view}"))
+                    self.assertEqual(({k: v for k, v in counts.items() if v}, parts), ({}, 1))
+
+    def test_dxf_lies_flat_on_each_surface(self):
+        for n in range(10):
+            body, (height, width, wall, outer, inner) = cut_by_tube(self.rng)
+            with self.subTest(n, target=body["target"]):
+                table = self.service.answer("bevel-tables", body)["result"]["points"]
+                drawing = read(self.service.text("bevel-tables", body, "format=dxf"))
+                self.assertEqual(drawing.audit().errors, [])
+                across = {"CUT_OUTER": girth(height, width, outer), "CUT_INNER": girth(height - 2 * wall, width - 2 * wall, inner)}
+                for layer, column in (("CUT_OUTER", "z_outer_mm"), ("CUT_INNER", "z_inner_mm")):
+                    [(points, closed)] = polylines(drawing, layer)
+                    self.assertFalse(closed)
+                    xs = [x for x, _ in points]
+                    self.assertEqual(xs, sorted(xs))
+                    self.assertAlmostEqual(xs[0], 0, delta=1e-6)
+                    self.assertAlmostEqual(xs[-1], across[layer], delta=1e-5)
+                    self.assertAlmostEqual(points[0][1], points[-1][1], delta=1e-6)
+                    heights = [z for _, z in points]
+                    self.assertTrue(all(min(abs(z - one) for one in heights) < 1e-5 for z in table[column]), "a row is not in the drawing")
+                corner, half = math.pi / 2 * outer, width / 2 - outer  # half: of face 1's flat
+                starts = (half, half + corner, half + corner + height - 2 * outer, half + 2 * corner + height - 2 * outer)
+                faces = [points[0][0] for points, _ in polylines(drawing, "FACE")]
+                if body["target"]["kind"] == "rectangular_tube":
+                    self.assertTrue(all(min(abs(s - one) for one in faces) < 1e-4 for s in starts), f"{starts} are not at {faces}")
+
+    def test_dxf_in_space_lies_on_the_tube_and_on_the_plane(self):
+        for n in range(10):
+            body, (height, width, wall, outer, inner), (z_0, a, b) = cut_by_plane(self.rng)
+            with self.subTest(n, target=body["target"]):
+                drawing = read(self.service.text("bevel-tables", body, "format=dxf&view=tube"))
+                for layer, lengths in (("CUT_OUTER", (height, width, outer)), ("CUT_INNER", (height - 2 * wall, width - 2 * wall, inner))):
+                    [(points, closed)] = polylines(drawing, layer)
+                    self.assertTrue(closed)
+                    for x, y, z in points:
+                        self.assertLess(abs(off_outline(x, y, *lengths)), 1e-5)
+                        self.assertLess(abs(z - (z_0 - a * x - b * y)), 0.02)  # rows stand within 0.01 mm of the curve
+                    for (x, y, _), (u, v, _) in zip(points, points[1:] + points[:1]):
+                        self.assertLess(abs(off_outline((x + u) / 2, (y + v) / 2, *lengths)), 0.011)
+
+    def test_templates_have_the_girth_and_name_what_they_show(self):
+        for n in range(10):
+            body, (height, width, wall, outer, _) = cut_by_tube(self.rng)
+            with self.subTest(n, target=body["target"]):
+                for mirror in ("false", "true"):
+                    root = xml.fromstring(self.service.text("bevel-tables", body, f"format=svg&view=template&mirror={mirror}"))
+                    at = {e.get("id"): float(e.get("x1")) for e in root.iter(f"{SVG}line") if e.get("id") in ("seam-0", "seam-360")}
+                    self.assertAlmostEqual(abs(at["seam-360"] - at["seam-0"]), girth(height, width, outer), delta=0.02)
+                    texts = " | ".join("".join(e.itertext()) for e in root.iter(f"{SVG}text"))
+                    for word in ("KEEP", "SCRAP", "chord", "girth, mm", f"{height} x {width} x {wall} mm"):
+                        self.assertIn(word, texts)
+                pages = self.service.text("bevel-tables", body, "format=pdf&view=template&paper=a4")
+                self.assertEqual(pages[:5], b"%PDF-")
+                self.service.text("intersections", {k: body[k] for k in ("target", "cutters")}, "format=pdf&view=template&paper=letter")
+
+    def test_curves_are_printed_as_tables_are(self):
+        body, _ = cut_by_tube(self.rng)
+        curves = {"target": body["target"], "cutters": body["cutters"]}
+        drawing = read(self.service.text("intersections", curves, "format=dxf"))
+        for p in self.service.answer("intersections", curves)["result"]["profiles"]:
+            [(points, _)] = polylines(drawing, "CUT_OUTER" if p["surface"] == "outer" else "CUT_INNER")
+            s, z = p["points"]["girth_mm"], p["points"]["z_mm"]
+            here = [*zip(s, z), (points[-1][0], z[0])]
+            self.assertAlmostEqual(length(points, False), length(here, False), delta=1e-4)
+        for chart in (self.service.text("intersections", curves, "format=svg"), self.service.text("bevel-tables", body, "format=svg")):
+            self.assertTrue(re.search(rb"corner 1", chart))
+
+    def test_what_shows_round_walls_is_refused_by_its_name(self):
+        body, _ = cut_by_tube(self.rng)
+        for query, name in (("format=svg&view=section", "view"), ("format=nc1", "format"), ("format=step", "format")):
+            status, _, content = self.service.ask("bevel-tables", body, query)
+            self.assertEqual((status, name in content.decode()), (422, True), content)
+
+
+if __name__ == "__main__":
+    main()
