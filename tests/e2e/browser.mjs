@@ -29,13 +29,13 @@ export async function answered(page, count = 1, questions = 1) {
   // No waitForFunction: it evaluates text, which the page's Content-Security-Policy forbids.
   const arrived = await page.evaluate(async ([n, least]) => {
     const {dataset} = document.body;
-    const end = Date.now() + 20000;
+    const end = Date.now() + 60000;
     const here = () => Number(dataset.answers ?? 0) >= n && Number(dataset.asked ?? 0) >= least && dataset.answered === dataset.asked;
     while (!here() && Date.now() < end) await new Promise((done) => setTimeout(done, 5));
     await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
     return here();
   }, [count, questions]);
-  if (!arrived) throw new Error(`no answer ${count} to question ${questions} in 20 s`);
+  if (!arrived) throw new Error(`no answer ${count} to question ${questions} in 60 s`);
 }
 
 export const answers = (page) => page.evaluate(() => Number(document.body.dataset.answers ?? 0));
@@ -59,7 +59,7 @@ export async function pixels(page, ratio = 'fine') {
   return page.evaluate(async (wanted) => {
     await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
     const canvas = document.querySelector('.canvas canvas');
-    const end = Date.now() + 10000;
+    const end = Date.now() + 60000;
     while (wanted === 'fine' && canvas.dataset.drawn !== 'fine' && Date.now() < end) await new Promise((done) => setTimeout(done, 10));
     const copy = document.createElement('canvas');
     copy.width = canvas.width;

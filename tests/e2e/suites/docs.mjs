@@ -21,7 +21,7 @@ export const checks = {
     const {paths} = JSON.parse((await service.ask('/openapi.json', {method: 'GET'})).text);
     const operations = Object.values(paths).reduce((sum, path) => sum + Object.keys(path).length, 0);
     const page = await open(browser, origin, '', {at: '/docs'});
-    await page.locator('.opblock').first().waitFor({timeout: 20000});
+    await page.locator('.opblock').first().waitFor({timeout: 60000});
     assert.equal(await page.locator('.opblock').count(), operations);
     const block = page.locator('#operations-cuts-bevelTables');
     await block.locator('.opblock-summary-control').click();
@@ -29,7 +29,7 @@ export const checks = {
     await examples.first().waitFor();
     assert.ok((await examples.first().locator('option').count()) > 3, 'the examples of the service');
     await block.getByRole('button', {name: 'Execute'}).click();
-    await block.locator('.live-responses-table .response-col_status').first().waitFor({timeout: 20000});
+    await block.locator('.live-responses-table .response-col_status').first().waitFor({timeout: 60000});
     assert.match(await block.locator('.live-responses-table tbody .response-col_status').first().innerText(), /200/);
     for (const colorScheme of ['light', 'dark']) {
       await page.emulateMedia({colorScheme});

@@ -22,7 +22,7 @@ async function downloads({browser, origin, service}, endpoint, name) {
       const [type, view] = await Promise.all(['data-media', 'data-view'].map((name) => button.getAttribute(name)));
       media.push(type);
       await page.waitForTimeout(150);  // Chromium drops downloads beyond a burst of ten a second
-      const [download] = await Promise.all([page.waitForEvent('download', {timeout: 15000}), button.click()])
+      const [download] = await Promise.all([page.waitForEvent('download', {timeout: 60000}), button.click()])
         .catch(async () => assert.fail(`no download of ${type} ${view}: ${await page.locator('#panel [role=status]').innerText()}`));
       const saved = await readFile(await download.path());
       const query = new URLSearchParams(view ? {view} : {});
@@ -59,7 +59,7 @@ async function named({browser, origin, service}) {
       if (/注/.test(words) && ending === 'nc1') continue;  // refused: it is ASCII
       await choose(page, ending === 'csv' ? 'data' : 'model');
       await page.waitForTimeout(150);
-      const [download] = await Promise.all([page.waitForEvent('download', {timeout: 15000}), page.locator(`#panel [data-media="${media}"]`).first().click()]);
+      const [download] = await Promise.all([page.waitForEvent('download', {timeout: 60000}), page.locator(`#panel [data-media="${media}"]`).first().click()]);
       assert.equal(download.suggestedFilename(), `${words}-${job.input_sha256.slice(0, 8)}.${ending}`);
     }
     await page.context().close();
@@ -75,7 +75,7 @@ async function packet({browser, origin, service}) {
   for (const name of ['work-order', 'dxf', 'step', 'csv']) await page.locator(`#panel input[data-option=files][value="${name}"]`).uncheck();
   for (const query of ['files=nc1', 'files=nc1,gcode&speed_mm_min=600']) {
     await page.locator('#panel input[data-option=files][value=gcode]').setChecked(query.includes('gcode'));
-    const [download] = await Promise.all([page.waitForEvent('download', {timeout: 15000}), page.locator('#panel [data-media="application/zip"]').click()]);
+    const [download] = await Promise.all([page.waitForEvent('download', {timeout: 60000}), page.locator('#panel [data-media="application/zip"]').click()]);
     const {status, body: bytes} = await service.ask(`/v1/frames?format=zip&${query}`, {body});
     assert.equal(status, 200);
     assert.ok((await readFile(await download.path())).equals(bytes), query);
@@ -108,7 +108,7 @@ async function program({browser, origin, service}) {
   assert.equal(await page.locator('#panel [role=status]').innerText(), 'G-code: 6 fields are marked.');
   await option('machine').selectOption('five_axis_cutter');
   await option('material').selectOption('steel');
-  const [download] = await Promise.all([page.waitForEvent('download', {timeout: 15000}), button.click()]);
+  const [download] = await Promise.all([page.waitForEvent('download', {timeout: 60000}), button.click()]);
   const body = await readFile(new URL(`../../../examples/parts/${name}.json`, import.meta.url));
   const {body: bytes} = await service.ask('/v1/parts?machine=five_axis_cutter&material=steel&torch=on&format=gcode', {body});
   assert.ok((await readFile(await download.path())).equals(bytes));

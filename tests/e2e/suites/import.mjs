@@ -106,7 +106,7 @@ async function dropsIfc({browser, origin}, width, theme) {
   await page.locator('#tab-downloads').click();
   await page.locator('#panel [name=purpose][value=packet]').check();
   await page.locator('#panel input[data-option=files][value=gcode]').uncheck();
-  const [packet] = await Promise.all([page.waitForEvent('download', {timeout: 30000}), page.locator('#panel [data-media="application/zip"]').click()]);
+  const [packet] = await Promise.all([page.waitForEvent('download', {timeout: 60000}), page.locator('#panel [data-media="application/zip"]').click()]);
   const listed = execFileSync('unzip', ['-Z1', await packet.path()], {encoding: 'utf8'}).trim().split('\n');
   execFileSync('unzip', ['-tqq', await packet.path()]);
   // The braces are alike: one part.

@@ -103,10 +103,10 @@ export const checks = {
     const page = await visit(browser, origin, '', {at: '/docs'});
     await enter(page, key);
     const block = page.locator('#operations-catalogues-version');
-    await block.locator('.opblock-summary-control').click({timeout: 20000});
+    await block.locator('.opblock-summary-control').click({timeout: 60000});
     await block.getByRole('button', {name: 'Execute'}).click();
     const status = block.locator('.live-responses-table tbody .response-col_status').first();
-    await status.waitFor({timeout: 20000});
+    await status.waitFor({timeout: 60000});
     assert.match(await status.innerText(), /200/);
     assert.ok(!(await page.content()).includes(key), 'in the page, such as in the curl beside the answer');
     const [file] = await Promise.all([page.waitForEvent('download'), page.getByRole('link', {name: 'openapi.yaml', exact: true}).click()]);
