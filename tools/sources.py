@@ -30,7 +30,7 @@ def shell(root=ROOT):
     return [p for p in _files(root, SCRIPTS) if re.match(rb"#!.*\b(ba)?sh\b", p.open("rb").readline())]
 
 
-def typescript(root=ROOT, folders=("web/src", "clients/typescript", "clients/import", "clients/check", "tests/e2e", "tests/front", "tests/contract")):
+def typescript(root=ROOT, folders=("web/src", "clients/typescript", "clients/import", "clients/check", "tests/e2e", "tests/front", "tests/contract", "tests/generators")):
     """What the client's own build writes (schema.ts and dist) is none of ours."""
     return [p for p in _files(root, folders) if p.suffix in (".ts", ".tsx") and p.name != "schema.ts" and "dist" not in p.parts]
 
