@@ -728,6 +728,7 @@ class Client:
         if run.lasts_too_long(wait):
             raise UnreachableError(f"{what}; tried {', '.join(self._urls)}")
         if not moved:
+            self._end_if_unknown()
             run.sleep(wait)
 
     def _next_url(self, run: _Run, tried: Set[str]) -> str:
@@ -893,6 +894,7 @@ class Client:
                     return reply
             except _Down as down:
                 why = str(down)
+                self._end_if_unknown()
             wait = 0.0 if attempt % len(self._urls) else max(_wait_s(reply), min(2.0, 0.05 * 2**attempt))
             if time.monotonic() + wait > give_up:
                 if reply is not None:
@@ -926,6 +928,17 @@ class Client:
                 self._connections.open[url] = connection
             return reply
         raise _Down(f"{type(failure).__name__}: {failure}")
+
+    def _end_if_unknown(self) -> None:
+        """Ends a call if no host has an address, because a wrong name stays wrong. A directory that does not answer (EAI_AGAIN) may later."""
+        for url in self._urls:
+            try:
+                socket.getaddrinfo(urllib.parse.urlsplit(url).hostname, None)
+                return
+            except socket.gaierror as failed:
+                if failed.errno != socket.EAI_NONAME:
+                    return
+        raise UnreachableError(f"no host of this name: {', '.join(self._urls)}; check the address")
 
 
 def _query(**options: Option) -> str:
