@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kIssuesNamed = 32;
 constexpr std::size_t kShownText = 80;
+constexpr std::size_t kNamedInFull = 200;  // bytes of an unknown name, in its pointer
 
 /// Returns the value shortened for a problem document.
 Json shown(const Json& value) {
@@ -117,6 +118,14 @@ void Reader::finish() {
       hint = "did you mean " + near + "?";
     else if (const auto twin = slip_of(name, known_); !twin.empty())
       hint = twin + " is given already; remove one of the two";
+    if (name.size() > kNamedInFull) {
+      const Json cut(name);
+      record({.code = ErrorCode::unknown_field,
+              .pointer = pointer_,
+              .hint = "a field whose name has " + std::to_string(name.size()) + " bytes; " + hint},
+             &cut);
+      continue;
+    }
     record({.code = ErrorCode::unknown_field,
             .pointer = pointer_ + "/" + escaped(name),  // the empty name too is a name
             .hint = std::move(hint)},

@@ -514,6 +514,15 @@ TEST(Envelope, DefaultsAreEchoed) {
   EXPECT_EQ(number(echo, "cutters/0/height_mm"), 0.0);
 }
 
+TEST(Problems, ALongUnknownNameIsCutAndNamedOnce) {
+  const std::string name(100'000, 'k');
+  const auto answer = post("/v1/bevel-tables", std::string_view("{\"" + name + "\":1}"));
+  ASSERT_TRUE(answer.outcome.error);
+  EXPECT_LT(answer.outcome.body.size(), 3000U);
+  EXPECT_NE(answer.outcome.body.find("a field whose name has 100000 bytes"), std::string::npos);
+  EXPECT_EQ(answer.outcome.body.find(name.substr(0, 201)), std::string::npos);
+}
+
 TEST(Envelope, EveryCodeHasAnAction) {
   for (const auto& error : all_errors()) {
     EXPECT_FALSE(error.meaning.empty()) << error.code;
