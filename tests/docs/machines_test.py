@@ -23,7 +23,6 @@ class Page(unittest.TestCase):
 
     def run_page(self, folder):
         """What each block printed; the service is started where the page does."""
-        os.symlink(ROOT / "examples", folder / "examples")
         service, said, script = None, [], ""
         try:
             for kind, block in BLOCKS:
@@ -33,11 +32,12 @@ class Page(unittest.TestCase):
                 if SERVER in block:
                     service = Running(self.binary, *shlex.split(block.strip().rstrip("&"))[1:], cwd=folder, stderr=subprocess.DEVNULL)
                     continue
-                told = [line for line in block.splitlines() if line.startswith("ask=")]
+                told = [line for line in block.splitlines() if line.startswith(("ask=", "TUBECUT="))]
                 block = script + block if service is None or told else script + "\n" + block
                 if service is not None:
                     block = block.replace(ADDRESS, f"http://127.0.0.1:{service.port}")
-                ran = subprocess.run(["bash", "-euo", "pipefail", "-c", block], cwd=folder, capture_output=True, text=True, timeout=120)
+                ran = subprocess.run(["bash", "-euo", "pipefail", "-c", block], cwd=folder, capture_output=True, text=True, timeout=120,
+                                     env=os.environ | {"TUBECUT": str(ROOT)})
                 self.assertEqual(ran.returncode, 0, block + ran.stderr)
                 said.append(ran.stdout)
                 script += "".join(line + "\n" for line in told)  # variables last to the next block
