@@ -21,7 +21,9 @@ using part::Datum;
 constexpr Range kComponent{.min = -1e6, .max = 1e6};
 constexpr Range kAllowance{.min = 0.0, .max = 1e5};
 constexpr Range kDensity{.min = 100.0, .max = 25'000.0};  // kg/m^3
-constexpr std::size_t kMostHoles = 64, kMostMarks = 1'000;
+constexpr std::size_t kMostMarks = 1'000;
+constexpr CountRange kHoles{
+    .min = 0, .max = 64, .instead = "holes without a branch are cutouts, up to 2000"};
 constexpr auto kMostCutters = static_cast<std::size_t>(limit::cutters_max);
 constexpr Range kGap{.min = 0.0, .max = 50.0};
 
@@ -100,7 +102,7 @@ void decode_member(Reader& in, PartRequest& out) {
   in.note("holes");
   if (!in.has("holes")) return;
   const double radius = found ? m.node.members[m.member].outer_radius : kDiameter.min;
-  in.array("holes", {.min = 0, .max = kMostHoles}, [&](Reader& h) {
+  in.array("holes", kHoles, [&](Reader& h) {
     auto hole = hole_options(m.cut);
     const auto branch = h.text("member");
     const auto other = known_member(h, node.ids, branch, "member");
@@ -248,7 +250,7 @@ void decode_direct(Reader& in, PartRequest& out) {
   p.cutouts = decode_cutouts(in, out.preset, once);
   in.note("holes");
   if (!in.has("holes")) return;
-  in.array("holes", {.min = 0, .max = kMostHoles}, [&](Reader& h) {
+  in.array("holes", kHoles, [&](Reader& h) {
     auto hole = hole_options(once);
     hole.chord = {.outer_radius = p.target.outer_radius, .wall = p.target.wall};
     const auto branch = h.object("branch", decode_hole_branch);

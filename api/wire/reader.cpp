@@ -178,6 +178,7 @@ const Json::Array* Reader::required_array(std::string_view name, CountRange coun
   bad.limit = Json{static_cast<double>(few ? count.min : count.max)};
   bad.hint =
       (few ? "at least " : "at most ") + std::to_string(few ? count.min : count.max) + " elements";
+  if (!few && !count.instead.empty()) bad.hint += "; " + std::string(count.instead);
   issue(std::move(bad));
   return nullptr;
 }

@@ -187,6 +187,25 @@ TEST(Cutouts, AllOfThemAreInEveryFile) {
   EXPECT_GE(count(text_of("format=gcode&speed_mm_min=1200&lead_mm=3"), "cut-out p"), 2u);
 }
 
+/// Who asks for holes what only cut-outs can is told of them: more than 64, or a branch that is not
+/// round.
+TEST(Cutouts, RefusedHolesNameThem) {
+  const auto hole = json(R"({"branch": {"outer_diameter_mm": 6, "wall_mm": 1,
+                                         "axis": {"point_mm": [0, 0, 100], "direction": [1, 0, 0]}},
+                             "groove": {"rule": "square"}, "tilt": "none"})");
+  auto body = part_with(Json{Json::Array{}});
+  const auto many = post(kParts, with(body, "holes", Json{Json::Array(65, hole)}));
+  ASSERT_TRUE(many.outcome.error);
+  EXPECT_EQ(text(many.body, "errors/0/pointer"), "/holes");
+  EXPECT_NE(text(many.body, "errors/0/hint").find("cutouts"), std::string::npos);
+  auto slot = with(hole, "branch/kind", Json{"rectangular_tube"});
+  const auto other = post(kParts, with(body, "holes", Json{Json::Array{std::move(slot)}}));
+  ASSERT_TRUE(other.outcome.error);
+  EXPECT_EQ(text(other.body, "errors/0/pointer"), "/holes/0/branch/kind");
+  EXPECT_EQ(text(other.body, "errors/0/code"), "unsupported_combination");
+  EXPECT_NE(text(other.body, "errors/0/hint").find("cutouts"), std::string::npos);
+}
+
 TEST(Cutouts, AThousandAndMoreAreOneShapeMoved) {
   const auto made = post(kParts, example("parts/perforated-tube.json"));
   ASSERT_FALSE(made.outcome.error) << made.outcome.body.substr(0, 1500);
