@@ -82,32 +82,46 @@ const labels = (page) => page.locator('.labels .shown').evaluateAll((spans) => s
 
 const apart = ([l, t, r, b], [left, top, right, bottom]) => left >= r || right <= l || top >= b || bottom <= t;
 
-async function agrees({browser, origin, service}, width, theme) {
-  assert.ok(names.length >= 6);
-  for (const name of names) {
-    const {result, verdict, parts} = await answerTo(service, example(name));
-    const page = await frame(browser, origin, name, {width, height: 844, theme});
-    assert.equal(await page.locator('#verdict .pill').innerText(), verdict.status, name);
-    assert.equal(await canvas(page).getAttribute('data-members'), String(result.members.length), name);
-    assert.deepEqual(await page.locator('#items [role=option] b').allInnerTexts(), result.members.map(({id}) => id), name);
-    assert.match(await canvas(page).getAttribute('aria-label'), new RegExp(`${result.members.length} members, ${parts.length} different parts?, ${result.joints.length} joints?`), name);
-    assert.equal(await page.locator('#tab-joints').innerText(), `Joints (${result.joints.length})`, name);
-    const rows = await page.locator('#table-cut_list tbody tr').evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
-    assert.deepEqual(rows, result.cut_list.map((cut) => [cut.part, String(cut.count), `${mm(cut.outer_diameter_mm)} × ${mm(cut.wall_mm)}`,
-      ...[cut.long_mm, cut.blank_mm, cut.girth_mm, cut.mass_kg, cut.weld_mm].map(mm), cut.verdict]), name);
-    const seen = await labels(page);
-    const named = result.members.length <= 60;  // of more, those that are looked at
-    assert.ok(seen.length > 0 === named && seen.every(({box}, i) => seen.slice(i + 1).every((other) => apart(box, other.box))), `${name}: names over names`);
-    const scroll = await page.evaluate(() => document.documentElement.scrollWidth);
-    assert.ok(scroll <= width, `${name}: the page is ${scroll} px wide`);
-    clean(page);
-    await page.context().close();
-  }
+/** What the page shows of an open frame, against the answer. */
+async function agrees(page, name, {result, verdict, parts}, width) {
+  assert.equal(await page.locator('#verdict .pill').innerText(), verdict.status, name);
+  assert.equal(await canvas(page).getAttribute('data-members'), String(result.members.length), name);
+  assert.deepEqual(await page.locator('#items [role=option] b').allInnerTexts(), result.members.map(({id}) => id), name);
+  assert.match(await canvas(page).getAttribute('aria-label'), new RegExp(`${result.members.length} members, ${parts.length} different parts?, ${result.joints.length} joints?`), name);
+  assert.equal(await page.locator('#tab-joints').innerText(), `Joints (${result.joints.length})`, name);
+  const rows = await page.locator('#table-cut_list tbody tr').evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  assert.deepEqual(rows, result.cut_list.map((cut) => [cut.part, String(cut.count), `${mm(cut.outer_diameter_mm)} × ${mm(cut.wall_mm)}`,
+    ...[cut.long_mm, cut.blank_mm, cut.girth_mm, cut.mass_kg, cut.weld_mm].map(mm), cut.verdict]), name);
+  const seen = await labels(page);
+  const named = result.members.length <= 60;  // of more, those that are looked at
+  assert.ok(seen.length > 0 === named && seen.every(({box}, i) => seen.slice(i + 1).every((other) => apart(box, other.box))), `${name}: names over names`);
+  const scroll = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(scroll <= width, `${name}: the page is ${scroll} px wide`);
 }
 
 export const checks = {
-  'lists, cut list and picture tell of the members that the answer has': (given) => agrees(given, 1280, 'light'),
-  'the same at 390 px, dark': (given) => agrees(given, 390, 'dark'),
+  'lists, cut list and picture tell of the members that the answer has, wide and light, and narrow and dark': async ({browser, origin, service}) => {
+    assert.ok(names.length >= 6);
+    const page = await open(browser, origin, '', {height: 844});
+    await answered(page);
+    const views = [[1280, 'light'], [390, 'dark']];
+    for (const name of names) {
+      const answer = await answerTo(service, example(name));
+      await then(page, () => page.evaluate((to) => {
+        location.hash = to;
+      }, `#/frames/${name}`));
+      for (const [width, theme] of views) {
+        await page.setViewportSize({width, height: 844});
+        await page.emulateMedia({colorScheme: theme});
+        await page.locator(`:root[data-theme=${theme}]`).waitFor();
+        await pixels(page);
+        await agrees(page, name, answer, width);
+      }
+      views.reverse();  // a view less to change
+    }
+    clean(page);
+    await page.context().close();
+  },
 
   'every member lights up where it stands': async ({browser, origin, service}) => {
     for (const name of ['roll-cage-of-12', 'jacket-node-with-set-in-stubs']) {
