@@ -32,7 +32,7 @@ namespace tubecut::api {
                                       const joint::SectionIntersection& cut,
                                       const Caption& caption);
 
-/// A target that is not round, and what its table is of.
+/// A target that is not round, with its table.
 struct SectionCut {
   const section::Section& section;
   const bevel::TableSpec& spec;

@@ -34,7 +34,7 @@ inline constexpr Range kNotNegative{.min = 0.0};
 struct CountRange {
   std::size_t min = 0;
   std::size_t max = std::numeric_limits<std::size_t>::max();
-  std::string_view instead = {};  // what to do with more
+  std::string_view instead = {};  // the way for more
 };
 
 /// One thing wrong with a request, as the caller sees it.

@@ -187,8 +187,8 @@ TEST(Cutouts, AllOfThemAreInEveryFile) {
   EXPECT_GE(count(text_of("format=gcode&speed_mm_min=1200&lead_mm=3"), "cut-out p"), 2u);
 }
 
-/// Who asks for holes what only cut-outs can is told of them: more than 64, or a branch that is not
-/// round.
+/// If only cut-outs can make a requested opening, because there are more than 64 or because its
+/// branch is not round, the refusal names them.
 TEST(Cutouts, RefusedHolesNameThem) {
   const auto hole = json(R"({"branch": {"outer_diameter_mm": 6, "wall_mm": 1,
                                          "axis": {"point_mm": [0, 0, 100], "direction": [1, 0, 0]}},

@@ -26,7 +26,7 @@ const requests = readdirSync(examples, {withFileTypes: true}).filter((folder) =>
     .map((file) => ({endpoint, body: readFileSync(join(examples, endpoint, file), 'utf8')})));
 assert.ok(requests.length > 40, 'no examples');
 
-// Each as `name: [what generates, what is compiled]`.
+// Each generates a client and compiles it.
 const generators = {
   'openapi-typescript': () => {
     run('openapi-typescript', 'openapi.yaml', '--default-non-nullable=false', '-o', 'paths.ts'); // else every field with a default is required

@@ -111,7 +111,7 @@ double deepest(const Member& m, const Drawn& body) {
 }
 
 // Members of 300 mm and bodies through or beside them. The points of the oracle are 2 mm and 4 deg
-// apart; so it may miss a depth of 1.6 mm, and what it finds is there.
+// apart; so it may miss a depth of 1.6 mm, but a depth that it finds exists.
 TEST(BodyOverlap, AgreesWithManyPointsOfTheWall) {
   Draw draw;
   int inside = 0, clear = 0;

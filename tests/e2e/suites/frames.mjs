@@ -82,7 +82,7 @@ const labels = (page) => page.locator('.labels .shown').evaluateAll((spans) => s
 
 const apart = ([l, t, r, b], [left, top, right, bottom]) => left >= r || right <= l || top >= b || bottom <= t;
 
-/** What the page shows of an open frame, against the answer. */
+/** Compares the page of an open frame with the answer. */
 async function agrees(page, name, {result, verdict, parts}, width) {
   assert.equal(await page.locator('#verdict .pill').innerText(), verdict.status, name);
   assert.equal(await canvas(page).getAttribute('data-members'), String(result.members.length), name);
