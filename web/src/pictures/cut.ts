@@ -47,7 +47,7 @@ export async function joint(request: Row, context: Context): Promise<Joint> {
 }
 
 export async function bevelTable(_: Row, answer: Answer, context: Context): Promise<Picture> {
-  if (isSection(answer)) return sectionTable(answer);
+  if (isSection(answer)) return sectionTable(answer, context.sizes);
   const given = await joint(answer.request, context);
   return tablePicture(answer.request, answer.result, given, context.sizes, 'cut');
 }

@@ -4,7 +4,7 @@ import type {Answer} from '../service';
 import {choice, number, term} from '../words';
 import {facts, figure, figures, plural, readings} from './facts';
 import {bounds, type Sizes} from './geometry';
-import {sectionSolid} from './section_solid';
+import {edgeOf, edgesOf, sectionSolid} from './section_solid';
 
 /** Pictures of a target that is not round: charts along the girth, and the end in space. */
 export const isSection = (answer: Answer) => isRow(answer.result['section']);
@@ -49,7 +49,7 @@ function bandsOf(result: Row, girth: number): Band[] {
   });
 }
 
-export function sectionTable(answer: Answer): Picture {
+export function sectionTable(answer: Answer, sizes: Sizes): Picture {
   const {request, result} = answer;
   const points = result['points'] as Row,
     section = result['section'] as Row;
@@ -98,6 +98,7 @@ export function sectionTable(answer: Answer): Picture {
   const laser = isRow(result['tube_laser']) ? result['tube_laser'] : undefined;
   const gap = laser && isRow(laser['gap']) ? laser['gap'] : undefined;
   return {
+    solid: sectionSolid(shared.link, edgesOf(section, points), rowsIn(request, 'cutters'), sizes),
     charts,
     figures: [
       {name: 'least B', value: number(low, '°'), unit: '°', about: 'Of the finished cut.'},
@@ -119,7 +120,7 @@ export function sectionCurves(answer: Answer, sizes: Sizes): Picture {
   const events = profiles.flatMap((profile) => rowsIn(profile, 'events'));
   const on = (surface: string) => (profiles.find((each) => each['surface'] === surface) ?? (profiles[0] as Row))['points'] as Row;
   return {
-    solid: sectionSolid(on('outer'), on('inner'), rowsIn(request, 'cutters'), sizes),
+    solid: sectionSolid(choice('outer'), [edgeOf(on('outer')), edgeOf(on('inner'))], rowsIn(request, 'cutters'), sizes),
     charts: profiles.map((profile): Chart => {
       const points = profile['points'] as Row;
       const surface = choice(profile['surface']);

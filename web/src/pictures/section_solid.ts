@@ -1,12 +1,43 @@
 import type {Row} from '../json';
 import {column, type Solid, type Vector} from '../picture';
-import {choice} from '../words';
 import {bounds, partner, type Sizes} from './geometry';
 
-const edgeOf = (points: Row): Vector[] => {
+export const edgeOf = (points: Row): Vector[] => {
   const [x, y, z] = ['x_mm', 'y_mm', 'z_mm'].map((key) => column(points[key])) as [number[], number[], number[]];
   return x.map((at, i) => [at, y[i] as number, z[i] as number]);
 };
+
+/** The place outside at a way round from the middle of face 1, which lies at +x. */
+export function outside(section: Row, girth: number): [x: number, y: number] {
+  const [height, width, r] = ['height_mm', 'width_mm', 'corner_radius_mm'].map((key) => Number(section[key])) as [number, number, number];
+  const flats = [width - 2 * r, height - 2 * r] as const; // of faces 1 and 3; of 2 and 4
+  const arc = (Math.PI / 2) * r;
+  let rest = girth + flats[0] / 2;
+  for (let turn = 0; ; turn += 1) {
+    const flat = flats[turn % 2] as number;
+    // Of a face: its normal, and the direction of growing girth.
+    const [nx, ny] = [Math.round(Math.cos((turn * Math.PI) / 2)), Math.round(Math.sin((turn * Math.PI) / 2))];
+    const away = (turn % 2 ? width : height) / 2;
+    const along = Math.min(rest, flat) - flat / 2;
+    const [x, y] = [nx * (away - r) - ny * along, ny * (away - r) + nx * along];
+    const angle = r > 0 ? Math.max(0, rest - flat) / r : 0;
+    if (rest <= flat + arc || turn > 4) return [x + r * (nx * Math.cos(angle) - ny * Math.sin(angle)), y + r * (ny * Math.cos(angle) + nx * Math.sin(angle))];
+    rest -= flat + arc;
+  }
+}
+
+/** Both edges of a table, row by row: the inner one at the end of each line across the wall. */
+export function edgesOf(section: Row, points: Row): [outer: Vector[], inner: Vector[]] {
+  const of = (name: string) => column(points[name]);
+  const [wall, normal, zInner] = [of('wall_mm'), of('normal_deg'), of('z_inner_mm')];
+  const places = of('girth_mm').map((girth) => outside(section, girth));
+  const outer = places.map(([x, y], i): Vector => [x, y, of('z_outer_mm')[i] as number]);
+  const inner = places.map(([x, y], i): Vector => {
+    const nu = ((normal[i] as number) * Math.PI) / 180;
+    return [x - (wall[i] as number) * Math.cos(nu), y - (wall[i] as number) * Math.sin(nu), zInner[i] as number];
+  });
+  return [outer, inner];
+}
 
 /** The place on a closed line that is nearest to p, seen along the tube. */
 function nearest(line: Vector[], p: Vector): Vector {
@@ -25,8 +56,7 @@ function nearest(line: Vector[], p: Vector): Vector {
 }
 
 /** The end in space: both walls from the cut on, and the cut between them. */
-export function sectionSolid(outerPoints: Row, innerPoints: Row, cutters: Row[], sizes: Sizes): Solid {
-  const [outer, inner] = [edgeOf(outerPoints), edgeOf(innerPoints)];
+export function sectionSolid(link: string, [outer, inner]: [Vector[], Vector[]], cutters: Row[], sizes: Sizes): Solid {
   const [low, high] = bounds([...outer, ...inner].map((p) => p[2]));
   const size = 2 * Math.max(...outer.map((p) => Math.hypot(p[0], p[1])));
   const far = high + 0.9 * size;
@@ -34,7 +64,7 @@ export function sectionSolid(outerPoints: Row, innerPoints: Row, cutters: Row[],
   const end = (line: Vector[]) => closed(line).map(([x, y]): Vector => [x, y, far]);
   const middle = (low + high) / 2;
   return {
-    link: choice('outer'),
+    link,
     tubes: [],
     ribbons: [
       {a: closed(outer), b: end(outer), tone: 'target'},

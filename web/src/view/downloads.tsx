@@ -2,11 +2,12 @@ import type {Signal} from '@preact/signals';
 import {useEffect, useLayoutEffect, useRef, useState} from 'preact/hooks';
 import {listed, type Listed} from '../catalogue';
 import {save} from '../dom';
-import {groupsOf, known, purposeNames, purposesOf, queryOf, remember, remembered, type Option, type Purpose, type Values} from '../files';
+import {groupsOf, known, printable, purposeNames, purposesOf, queryOf, remember, remembered, type Option, type Purpose, type Values} from '../files';
 import {said} from '../hint';
 import type {Row} from '../json';
 import {headed} from '../key';
 import {endpointName} from '../names';
+import {isSection} from '../pictures/section';
 import {parseProgram, type Program} from '../program';
 import type {Format} from '../schema';
 import {away, path, type Answer, type Problem} from '../service';
@@ -76,7 +77,8 @@ interface Given {
 }
 
 /** The files of an answer, by what they are for: the options of that purpose, and a button for every format and drawing. The file is the service's. */
-export function Downloads({endpoint, name, body, formats, answer, program}: Given) {
+export function Downloads({endpoint, name, body, formats: all, answer, program}: Given) {
+  const formats = printable(all, !isSection(answer));
   const offered = purposesOf(formats);
   const options = formats.flatMap((format) => format.options);
   const [given, give] = useState<Values>(() => ({...Object.fromEntries(options.map((option) => [option.name, beginning(option)])), ...remembered()}));
