@@ -102,17 +102,13 @@ inline constexpr std::string_view kVerdictHeader = "Tubecut-Verdict";
 /// Largest body, in bytes, that the path takes.
 [[nodiscard]] std::size_t max_body(std::string_view path);
 
-/// Upper bound of the memory that a call at a path takes for its body while it is answered; other
-/// memory is added to it (memory.hpp). If the path is not an endpoint's, the bound of the largest
-/// endpoint applies.
-struct CallMemory {
-  std::size_t fixed = 0;
-  std::size_t per_byte = 0;
-};
-[[nodiscard]] CallMemory call_memory(std::string_view path);
-
-/// Returns the same for a line of a batch, in bytes: that of the largest endpoint that it may name.
-[[nodiscard]] std::size_t line_memory(std::string_view line);
+/// Bytes of memory reserved for a job, before it begins, for each byte of its body: for its tree of
+/// values, its echo and what an endpoint makes of it. The second is for endpoints that take large
+/// bodies, and for lines of batches, which may name any endpoint. What a job needs in addition is
+/// counted while it runs.
+inline constexpr std::size_t kReservedPerByte = 48;
+inline constexpr std::size_t kReservedPerByteOfLarge = 160;
+[[nodiscard]] std::size_t reserved_per_byte(std::string_view path);
 
 /// The id of the endpoint, or of the batches, at a path; empty for other paths.
 [[nodiscard]] std::string_view endpoint_at(std::string_view path);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include "api/api.hpp"
@@ -53,7 +52,6 @@ class CallRun {
 
  private:
   Outcome work(const Endpoint& endpoint);
-  Outcome over_budget();
   Outcome answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
                  const FormatChoice& choice, const Query& query);
   void judged(const Answer& answer) {
@@ -74,7 +72,6 @@ class CallRun {
   Outcome out_;
   double begun_ = 0.0;
   double mark_ = 0.0;
-  std::optional<double> estimate_;  // s of CPU, once the work is known
 };
 
 Outcome CallRun::compute(const Endpoint& endpoint) {
@@ -89,24 +86,8 @@ Outcome CallRun::compute(const Endpoint& endpoint) {
                     .input_sha256 = std::move(out_.job.input_sha256),
                     .reference = std::move(out_.job.reference),
                     .stages = std::move(out_.job.stages)}};
-    return over_budget();
+    return refuse(ErrorCode::over_budget);
   }
-}
-
-/// States a sufficient budget.
-Outcome CallRun::over_budget() {
-  Problem out{.code = ErrorCode::over_budget};
-  if (estimate_)
-    out.issues = {{.code = ErrorCode::over_budget,
-                   .pointer = "",
-                   .got = Json{*estimate_},
-                   .limit = Json{context_.call_budget_s > 0.0 ? context_.call_budget_s
-                                                              : budget_s(call_.path, context_)},
-                   .unit = "s",
-                   .hint =
-                       "got: the estimate of the whole job's CPU, which may take three times as "
-                       "long; limit: the CPU it was given; GET /v1/limits lists the budgets"}};
-  return refuse(out);
 }
 
 Outcome CallRun::work(const Endpoint& endpoint) {
@@ -160,16 +141,12 @@ Outcome CallRun::work(const Endpoint& endpoint) {
       .understood = [this](std::string_view input_sha256) { out_.job.input_sha256 = input_sha256; },
       .judged = [this](const Answer& answer) { judged(answer); },
       .forget_body = [&body] { *body = Json{}; },
-      .foresee =
-          [this](Work work) {
-            work.add(Cost::body_byte, static_cast<double>(call_.body.size()));
-            estimate_ = std::round(work.seconds() * 1e4) / 1e4;
-          },
       .turns = context_.turns};
   const bool begins = choice->by_lines && !query.validate_only;
   auto reply = begins ? endpoint.begin(in, run) : endpoint.handle(in, run);
   if (auto* problem = std::get_if<Problem>(&reply)) {
-    return problem->code == ErrorCode::cancelled ? over_budget() : refuse(*problem);
+    return problem->code == ErrorCode::cancelled ? refuse(ErrorCode::over_budget)
+                                                 : refuse(*problem);
   }
   return answer(endpoint, common, std::move(std::get<Answer>(reply)), *choice, query);
 }
@@ -223,8 +200,6 @@ Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, An
       if (answer.beside) answer.beside(w);
     }
     write_judgement(w, answer, echo);
-    if (query.validate_only && estimate_)
-      w.object("estimate", [&](Writer& o) { o.field("cpu_s", *estimate_); });
     if (common.inline_log) write_events(w, context_, begun_, job.stages);
   });
   out_.content_type = cbor ? kCborMedia : kJsonMedia;

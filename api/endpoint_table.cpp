@@ -1,10 +1,7 @@
-#include <algorithm>
-
 #include "api/batch.hpp"
 #include "api/endpoint.hpp"
 #include "api/endpoints/all.hpp"
 #include "api/limits.hpp"
-#include "api/memory.hpp"
 
 namespace tubecut::api {
 
@@ -36,19 +33,9 @@ double budget_s(std::string_view path, const Context& context) {
   return kBudgetS;
 }
 
-CallMemory call_memory(std::string_view path) {
-  for (const auto& endpoint : endpoints())
-    if (endpoint.path == path) return {.per_byte = job_bytes(endpoint.id, {}).per_byte};
-  return {.per_byte = most_per_byte()};
-}
-
-std::size_t line_memory(std::string_view line) {
-  std::size_t per_byte = job_bytes({}, {}).per_byte;
-  const bool escaped = line.find("\\u") != line.npos;  // a letter so could hide the name
-  for (const auto& endpoint : endpoints())
-    if (escaped || line.find(endpoint.id) != line.npos)
-      per_byte = std::max(per_byte, job_bytes(endpoint.id, {}).per_byte);
-  return line.size() * per_byte;
+std::size_t reserved_per_byte(std::string_view path) {
+  const auto large = static_cast<std::size_t>(limit::body_large_max_bytes);
+  return max_body(path) < large ? kReservedPerByte : kReservedPerByteOfLarge;
 }
 
 std::string_view endpoint_at(std::string_view path) {

@@ -63,8 +63,6 @@ tl::expected<std::string, Problem> print_document(const typename E::Spec& spec,
 ///     types, units, ranges
 ///   static Result<Spec> resolve(Spec, const std::stop_token&);
 ///     optional: checks of the input that only core can make
-///   static void count(const Spec&, Work&);
-///     the work, for the estimate of its CPU
 ///   static Result<Out> compute(const Spec&, const std::stop_token&);  pure core call
 ///   static std::vector<Check> verify(const Spec&, const Out&);
 ///     the verification; if it may take long, with a stop token

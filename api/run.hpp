@@ -7,7 +7,6 @@
 #include <variant>
 #include <vector>
 
-#include "api/cost.hpp"
 #include "api/verdict.hpp"
 #include "api/wire/format.hpp"
 #include "api/wire/problem.hpp"
@@ -43,7 +42,6 @@ struct Run {
   std::function<void(std::string_view)> understood = {};  // called with the input's sha256
   std::function<void(const Answer&)> judged = {};         // called when the verdict is known
   std::function<void()> forget_body = [] {};              // called when all of it is read
-  std::function<void(const Work&)> foresee = {};          // called when the work is known
   Turns turns = in_order;                                 // runs independent tasks
 };
 

@@ -90,9 +90,6 @@ tl::expected<Worked<E>, Problem> worked(Reader& in, Run& run) {
     }
     spec = *std::move(resolved);
   }
-  Work work;
-  E::count(spec, work);
-  run.foresee(work);
   ask(run.stop);
   auto out = computed<E>(spec, run);
   run.stage("compute");

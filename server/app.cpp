@@ -171,13 +171,11 @@ std::optional<Refusal> App::admit(const Request& request) const {
 }
 
 std::size_t App::memory(const Request& request) {
-  const auto bound = api::call_memory(path_of(request.target));
-  return bound.fixed + bound.per_byte * request.body.size();
+  return api::reserved_per_byte(path_of(request.target)) * request.body.size();
 }
 
 std::size_t App::room(std::string_view target) const {
-  const auto bound = api::call_memory(path_of(target));
-  return (x_.memory - std::min(x_.memory, bound.fixed)) / bound.per_byte;
+  return x_.memory / api::reserved_per_byte(path_of(target));
 }
 
 std::string App::client(const Request& request) const {

@@ -43,7 +43,7 @@ struct AppOptions {
   std::string replica = {};  // value of Tubecut-Replica
   std::size_t max_target_bytes = 8192;
   std::size_t max_body_bytes = 8u << 20;  // lowers the endpoints' own limits, never raises them
-  /// Largest body of a job of most endpoints that fits in the memory; the transport refuses larger
+  /// Largest body of a job of any endpoint that fits in the memory; the transport refuses larger
   /// ones.
   std::size_t max_job_body_bytes = std::numeric_limits<std::size_t>::max();
   /// Bytes that jobs and answers share.
@@ -101,7 +101,7 @@ class App {
   /// The last line of a batch's answer, as the body; logs and counts the batch itself.
   [[nodiscard]] Response summary(const Request& head, const BatchCount& count) const;
 
-  /// An upper bound of the memory that the job takes, its answer's too, in bytes.
+  /// Bytes of memory that are reserved for the job before it begins.
   [[nodiscard]] static std::size_t memory(const Request& request);
 
   /// Returns the largest body for the target's path whose job fits in the memory.

@@ -87,7 +87,8 @@ Service service_of(const App& app) {
           .summary = [&app](const Request& head,
                             const BatchCount& count) { return app.summary(head, count); },
           .memory = App::memory,
-          .line_memory = api::line_memory,
+          .line_memory =
+              [](std::string_view line) { return api::kReservedPerByteOfLarge * line.size(); },
           .room = [&app](std::string_view target) { return app.room(target); },
           .client = [&app](const Request& request) { return app.client(request); },
           .kind = App::kind,
@@ -191,7 +192,7 @@ struct Run {
     return {.replica = c.replica,
             .max_target_bytes = c.max_target_bytes,
             .max_body_bytes = c.max_body_bytes,
-            .max_job_body_bytes = memory / api::call_memory({}).per_byte,
+            .max_job_body_bytes = memory / api::kReservedPerByteOfLarge,
             .memory = memory,
             .stop = jobs.get_token(),
             .budget = ms(c.budget_s),

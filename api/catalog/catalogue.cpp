@@ -9,7 +9,6 @@
 #include "api/catalog/posts.hpp"
 #include "api/catalog/section_sizes.hpp"
 #include "api/catalog/tube_sizes.hpp"
-#include "api/cost.hpp"
 #include "api/endpoint.hpp"
 #include "api/limits.hpp"
 #include "api/wire/problem.hpp"
@@ -70,13 +69,6 @@ std::string limits_page(const Context& context) {
           each.field("cpu_s", cpu);
           each.field("wall_s", kWallPerCpu * cpu);
         });
-    });
-    w.array("costs", kCosts, [](Writer& each, const CostInfo& cost) {
-      each.object([&](Writer& o) {
-        o.field("name", cost.name);
-        o.field("cpu_s", cost.seconds);
-        o.field("per", cost.per);
-      });
     });
     w.object("verification", [](Writer& o) {
       for (const auto& endpoint : endpoints())

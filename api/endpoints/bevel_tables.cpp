@@ -7,7 +7,6 @@
 #include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/section_bevel_table.hpp"
-#include "api/endpoints/work.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/drawing/partner_names.hpp"
 #include "api/formats/gcode/gcode.hpp"
@@ -58,7 +57,6 @@ struct BevelTables {
     TRY(auto resolved, api::resolve(BevelTableRequest(std::move(spec)), stop));
     return Spec{std::move(resolved), std::move(section)};
   }
-  static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     if (spec.section) {
       TRY(auto table, bevel::section_table(spec.section->section, spec, stop));

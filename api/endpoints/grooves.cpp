@@ -1,6 +1,5 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/groove_codec.hpp"
-#include "api/endpoints/work.hpp"
 #include "api/formats/groove_formats.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
@@ -34,7 +33,6 @@ struct Grooves {
   }};
 
   static Spec decode(Reader& in) { return decode_groove_request(in); }
-  static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     return groove::groove(spec, stop);
   }

@@ -5,7 +5,6 @@
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
-#include "api/endpoints/work.hpp"
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/hole_formats.hpp"
 #include "api/formats/step/step.hpp"
@@ -157,7 +156,6 @@ struct Holes {
     return out;
   }
 
-  static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     return bevel::hole(spec, stop);
   }

@@ -2,7 +2,6 @@
 #include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/section_target.hpp"
-#include "api/endpoints/work.hpp"
 #include "api/formats/drawing/partner_names.hpp"
 #include "api/formats/intersection_formats.hpp"
 #include "api/formats/section_formats.hpp"
@@ -60,7 +59,6 @@ struct Intersections {
     spec.partners = spec.source.node ? joint::seats(spec.source.found) : spec.source.partners;
     return spec;
   }
-  static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     if (!spec.section) {
       TRY(auto round, on_node(spec.source, joint::intersect(spec, stop)));

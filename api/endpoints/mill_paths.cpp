@@ -4,7 +4,6 @@
 
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/groove_codec.hpp"
-#include "api/endpoints/work.hpp"
 #include "api/formats/groove_formats.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
@@ -107,7 +106,6 @@ struct MillPaths {
     out.probe = decode_probe(in);
     return out;
   }
-  static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     TRY(auto path, groove::mill_path(spec, stop));
     Out out{std::move(path), {}};

@@ -12,7 +12,6 @@
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/part_request.hpp"
 #include "api/endpoints/place_text.hpp"
-#include "api/endpoints/work.hpp"
 #include "api/formats/drawing/partner_names.hpp"
 #include "api/formats/gcode/gcode.hpp"
 #include "api/formats/part_formats.hpp"
@@ -128,8 +127,6 @@ Parts::Spec Parts::decode(Reader& in) { return decode_part_request(in); }
 Result<Parts::Spec> Parts::resolve(Spec spec, const std::stop_token& stop) {
   return api::resolve(std::move(spec), stop);
 }
-
-void Parts::count(const Spec& spec, Work& work) { add_work(spec, work); }
 
 Result<Parts::Out> Parts::compute(const Spec& spec, const std::stop_token& stop) {
   auto part = part::part(spec.part, stop);

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "api/cost.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/cutout_codec.hpp"
 #include "api/endpoints/part_request.hpp"
@@ -61,7 +60,6 @@ struct Parts {
 
   static Spec decode(Reader& in);
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop);
-  static void count(const Spec& spec, Work& work);
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop);
   static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop);
   static std::vector<Warning> warnings(const Spec& spec, const Out& out);

@@ -435,7 +435,7 @@ class SingleJobs(Case):
         for endpoint, names in told.items():
             body = examples[endpoint]
             dry = getattr(self.client, endpoint.replace("-", "_"))(body, validate_only=True, job_id="dry")
-            self.assertEqual((dry.result, dry.job["id"], dry.estimate["cpu_s"] > 0), ({}, "dry", True))
+            self.assertEqual((dry.result, dry.job["id"]), ({}, "dry"))
             for name in names - {"view"}:  # JSON has no views to choose from
                 with self.subTest(endpoint=endpoint, name=name), self.assertRaises(ProblemError) as refused:
                     self.client.document(endpoint, body, "json", **{name: "never"})

@@ -190,7 +190,6 @@ class Answer:
     warnings: List[Json]
     result: Json  # empty with validate_only
     log: List[Json]
-    estimate: Json  # {"cpu_s": ...} with validate_only, else empty
     text: str = dataclasses.field(repr=False)
     parts: List[Json] = dataclasses.field(default_factory=list)  # of a whole frame: {part, canonical_sha256, answer}, or {..., problem}
 
@@ -203,7 +202,7 @@ class Answer:
         values = {name: value for name, (value, _, _) in members.items()}
         answer = cls(job=values["job"], request=values["request"], verification=values["verification"],
                      verdict=values["verdict"], warnings=values["warnings"], result=values.get("result", {}),
-                     log=values.get("log", []), estimate=values.get("estimate", {}), text=text, parts=values.get("parts", []))
+                     log=values.get("log", []), text=text, parts=values.get("parts", []))
         if check_hashes:
             answer._check_hashes(members)
         return answer

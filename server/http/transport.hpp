@@ -32,7 +32,7 @@ struct Service {
   std::function<BatchReply(const Request&)> line = {};
   /// The last line of a batch's answer, as the body: the batch with that head is over.
   std::function<Response(const Request& head, const BatchCount&)> summary = {};
-  /// Bytes of memory to set aside for a job, its answer's too; empty: those of its body.
+  /// Bytes of memory to reserve for a job before it begins; empty: those of its body.
   std::function<std::size_t(const Request&)> memory = {};
   /// The same of a line of a batch.
   std::function<std::size_t(std::string_view line)> line_memory = {};

@@ -71,10 +71,6 @@ class Limits(Service):
         said = names(section("limits.md", "`budgets`"))
         self.assertEqual(set().union(*self.limits["budgets"].values()) - set(said), set())
 
-    def test_every_cost(self):
-        told = [name for called, *_ in rows(section("limits.md", "`costs`")) for name in names(called)]
-        self.assertEqual(sorted(told), sorted(one["name"] for one in self.limits["costs"]))
-
     def test_every_check(self):
         said = set(names(section("limits.md", "`verification`")))
         checks = {one["name"] for each in self.limits["verification"].values() for one in each}

@@ -166,16 +166,16 @@ TEST(Binary, AnswersWithoutAReaderOfItsLog) {
   EXPECT_EQ(service.program.exit_code(), 0);
 }
 
-/// 20 MB leave 16 MiB for jobs, so 349 525 bytes for a body, and half for the lines of a batch.
+/// 20 MB leave 16 MiB for jobs, so 104 857 bytes for a body, and half for the lines of a batch.
 TEST(Binary, AcceptsBodiesThatFitInMemory) {
   Service service({"--memory-bytes", "20000000"});
-  const std::string fits(174'000, ' ');
-  const std::string too_large(175'000, ' ');
+  const std::string fits(104'000, ' ');
+  const std::string too_large(106'000, ' ');
   const std::string chunks = "Transfer-Encoding: chunked\r\nContent-Type: application/json\r\n";
   EXPECT_EQ(ask(service.port, post("/v1/nodes", fits)).status, 400);
   EXPECT_EQ(ask(service.port, post("/v1/nodes", too_large)).status, 413);
   const std::string head = "POST /v1/nodes HTTP/1.1\r\nHost: localhost\r\n" + chunks + "\r\n";
-  EXPECT_EQ(ask(service.port, head + "2ab98\r\n" + too_large + "\r\n0\r\n\r\n").status, 413);
+  EXPECT_EQ(ask(service.port, head + "19e10\r\n" + too_large + "\r\n0\r\n\r\n").status, 413);
   EXPECT_EQ(
       ask(service.port,
           "POST /v1/batches HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/x-ndjson\r\n"

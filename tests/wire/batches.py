@@ -193,7 +193,7 @@ class Suite:
 
     def shares_memory(self):
         """Batches whose lines have room only one at a time, or only when another's are through: all come to their end."""
-        large = b'{"id":"large","endpoint":"bevel-tables","body":{"x":"' + b"a" * 150_000 + b'"}}'
+        large = b'{"id":"large","endpoint":"bevel-tables","body":{"x":"' + b"a" * 50_000 + b'"}}'
         lines = b"\n".join([json.dumps(one).encode() for one in self.jobs[:2]] + [large] * 11)
         with Service(self.binary, "--memory-bytes", str(SMALL), "--slots", "1", "--budget-s", "1") as service:
             ended = []

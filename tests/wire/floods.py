@@ -17,7 +17,7 @@ from service import BODY, ROOT, Service, connect, exchange, get, head, post, rec
 
 LIMIT_MIB = 16
 BLOCK = 1 << 18
-CROWD = 120  # sockets, each with a body of 1 MB
+CROWD = 120  # sockets, each with a body of 0.8 MB
 TAKERS = 80  # sockets, each with an answer of 1.1 MB
 GIVEN_BACK_S = 5.0  # memory that nobody takes again goes back to the system within
 CONTAINER = 256 << 20
@@ -60,9 +60,9 @@ def flood(service, first, blocks):
 def begin_body(service, number):
     """A socket with all of a body but its end, by its length or in chunks."""
     sock = connect(service.port, 1.0)
-    body = b" " * 1_000_000
-    start = head("Transfer-Encoding: chunked", target="/v1/nodes") + b"100000\r\n" if number % 2 else head(
-        "Content-Length: 1000001", target="/v1/nodes")
+    body = b" " * 800_000
+    start = head("Transfer-Encoding: chunked", target="/v1/nodes") + b"c8000\r\n" if number % 2 else head(
+        "Content-Length: 800001", target="/v1/nodes")
     try:
         sock.sendall(start + body)
     except OSError:
@@ -85,7 +85,7 @@ def crowd(binary):
         for sock in sockets:
             sock.close()
         most = service.bytes_per_byte() * (share / 2 / (1 << 20) + LIMIT_MIB)
-        print(f"{CROWD} bodies of 1 MB begun: {refused:.0f} turned away, peak grows {growth:.1f} MiB (limit {most:.0f}), "
+        print(f"{CROWD} bodies of 0.8 MB begun: {refused:.0f} turned away, peak grows {growth:.1f} MiB (limit {most:.0f}), "
               f"{statuses.count(200)} of {CROWD} good jobs meanwhile answered")
         return growth <= most and refused > 0 and statuses.count(200) == CROWD
 
@@ -108,10 +108,10 @@ def announcers(binary):
         before = service.memory("VmRSS")
         for _ in range(CROWD):
             sock = stack.enter_context(connect(service.port))
-            sock.sendall(head("Content-Length: 1000000", target="/v1/nodes") + b" ")
+            sock.sendall(head("Content-Length: 800000", target="/v1/nodes") + b" ")
         there = all_there(service, CROWD)
         growth = service.memory("VmRSS") - before
-        print(f"{CROWD} bodies of 1 MB announced, a byte of each sent: {growth:.1f} MiB (limit {most})")
+        print(f"{CROWD} bodies of 0.8 MB announced, a byte of each sent: {growth:.1f} MiB (limit {most})")
         return growth <= most and there
 
 

@@ -21,8 +21,7 @@ Run inner_run(const std::stop_token& stop) {
   return {.stop = stop,
           .stage = [](std::string_view) {},
           .understood = [](std::string_view) {},
-          .judged = [](const Answer&) {},
-          .foresee = [](const Work&) {}};
+          .judged = [](const Answer&) {}};
 }
 
 /// Returns whether the error concerns the whole request, not only one part.
@@ -113,9 +112,6 @@ struct FrameBase {
       for (const auto member : spec.parts[i].members) spec.part_of[member] = i;
     return spec;
   }
-  static void count_members(const Spec& spec, Work& work) {
-    work.add(Cost::member, 4.0 * static_cast<double>(spec.spec.members.size()));
-  }
 
   static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
     std::vector<const part::PartSpec*> asked;
@@ -139,11 +135,6 @@ struct FrameBase {
 };
 
 struct Frames : FrameBase {
-  static void count(const Spec& spec, Work& work) {
-    count_members(spec, work);
-    for (const auto& part : spec.parts)
-      if (const auto* own = spec.own(part.by)) Parts::count(*own, work);
-  }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop, const Turns& turns) {
     std::vector<std::optional<Result<MadePart>>> made(spec.parts.size());
     turns(made.size(), [&](std::size_t i) {
@@ -221,7 +212,6 @@ struct Frames : FrameBase {
 
 /// Only the frame, and its parts as requests.
 struct FrameLines : FrameBase {
-  static void count(const Spec& spec, Work& work) { count_members(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token&) {
     return Out(spec.parts.size());
   }

@@ -6,7 +6,6 @@
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/place_text.hpp"
-#include "api/endpoints/work.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "core/base/try.hpp"
@@ -141,10 +140,6 @@ struct Nodes {
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
     TRY(spec.solved, joint::solve(spec.node, stop));
     return spec;
-  }
-  static void count(const Spec& spec, Work& work) {
-    add_work(spec.node, spec.solved, spec.profiles ? &spec.sampling : nullptr,
-             spec.tables ? &*spec.tables : nullptr, work);
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop, const Turns& turns) {
     Out out;

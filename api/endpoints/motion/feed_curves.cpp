@@ -1,5 +1,4 @@
 #include "api/endpoints/all.hpp"
-#include "api/endpoints/work.hpp"
 #include "api/formats/feed_curve_formats.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
@@ -300,7 +299,6 @@ struct FeedCurves {
     return out;
   }
 
-  static void count(const Spec& spec, Work& work) { add_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     return cutoff::feed_curve(spec, stop);
   }

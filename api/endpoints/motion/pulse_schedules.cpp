@@ -8,7 +8,6 @@
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/motion/motion_codec.hpp"
 #include "api/endpoints/motion/schedule_answer.hpp"
-#include "api/endpoints/work.hpp"
 #include "api/formats/gcode/schedule_gcode.hpp"
 #include "api/formats/schedule_formats.hpp"
 #include "api/limits.hpp"
@@ -77,7 +76,6 @@ struct PulseSchedules {
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
     return api::resolve(std::move(spec), stop);
   }
-  static void count(const Spec& spec, Work& work) { add_schedule_work(spec, work); }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     TRY(auto job, compute_schedule_job(spec, stop));
     if (job.program) {

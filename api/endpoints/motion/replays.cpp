@@ -4,7 +4,6 @@
 
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/motion/motion_codec.hpp"
-#include "api/endpoints/work.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
 #include "api/wire/motion_names.hpp"
@@ -124,11 +123,6 @@ struct Replays {
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
     TRY(spec.job, api::resolve(std::move(spec.job), stop));
     return spec;
-  }
-  static void count(const Spec& spec, Work& work) {
-    add_cut_work(spec.job, work);
-    for (const auto& counts : spec.schedule.counts)
-      work.add(Cost::period, static_cast<double>(counts.size()));
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     TRY(auto job, compute_schedule_job(spec.job, stop));

@@ -62,7 +62,7 @@ function sent<P extends PostPath, Data = Answer<P>>(
   }));
 }
 
-/** Everything but the result: the real verdict, and an estimate of the CPU that the job takes. */
+/** Everything but the result: with the real verdict. */
 export function validated<P extends PostPath>(client: TubecutClient, path: P, body: RequestBody<P>, options: JobOptions = {}): Promise<NonNullable<Answer<P>>> {
   return sent(client, path, body, options, {params: {query: {validate_only: true}}});
 }

@@ -115,7 +115,7 @@ async function hangsUpOnAFrame({base}) {
 
 async function validatesWithoutAResult({client}) {
   const dry = await validated(client, '/v1/frames', cage, {jobId: 'dry'});
-  assert.deepEqual([dry.job.id, 'result' in dry, 'parts' in dry, dry.estimate.cpu_s > 0], ['dry', false, false, true]);
+  assert.deepEqual([dry.job.id, 'result' in dry, 'parts' in dry], ['dry', false, false]);
   await assert.rejects(validated(client, '/v1/frames', {...cage, kerf_mm: -1}), ProblemError);
 }
 

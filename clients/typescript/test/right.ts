@@ -96,7 +96,7 @@ export async function calls(): Promise<number> {
   const gathered = await frame(replicas, roof, {progress: progressBar(process.stderr)});
   const first: string | undefined = gathered.parts.get(gathered.head.result.members[0]?.part ?? '')?.id;
   const dry = await validated(client, '/v1/frames', roof);
-  console.log(first, dry.estimate?.cpu_s);
+  console.log(first, dry.verdict.status);
 
   const limits = await answered(client.GET('/v1/limits'));
   return Number(passed) + columns.length + sign.length + status.length + (text?.length ?? 0) + periods + (pointer?.length ?? 0) +
