@@ -1,9 +1,8 @@
 /** Grooves of equal area between a branch and its chord, section by section (docs/theory/grooves-and-milling.md). */
 import type {Scope} from './report.js';
-import type {Body} from './solids.js';
+import type {Body, Numbers} from './solids.js';
 import {cross, dot, integral, mul, RAD, root, sub, type V3, unit} from './space.js';
 
-type Numbers = {[name: string]: number};
 type Table = {[name: string]: number[]};
 
 export interface Joint {
@@ -83,6 +82,11 @@ export function sectionAt(j: Joint, omega: number): Section {
 /** The area of filler below a groove line that ends `h` above the root: triangle of root, line's end and weld end, less the bow. */
 export const fillerOf = (j: Joint, {y1, s2, y2, bow: below}: Section, h: number): number => (h * (s2 - j.rho) - j.H * (y2 - y1)) / 2 - below;
 export const heightOf = (j: Joint, {y1, s2, y2, bow: below}: Section, area: number): number => (2 * (area + below) + j.H * (y2 - y1)) / (s2 - j.rho);
+
+/** The filler's area: as requested, or of its height in one section. */
+export function areaOf(j: Joint, filler: Numbers): number {
+  return filler.area_mm2 ?? fillerOf(j, sectionAt(j, (filler.at_deg ?? 0) * RAD), filler.height_mm);
+}
 
 export function checkGroove(scope: Scope, request: Body, result: Body): void {
   const j = jointOf(request);

@@ -5,11 +5,12 @@ import {checkFeed} from './feed.js';
 import {checkFrame} from './frames.js';
 import {checkGroove} from './grooves.js';
 import {checkHoles} from './holes.js';
+import {checkMill} from './mills.js';
 import {checkNodes, cutOfNode} from './nodes.js';
 import {checkPart} from './parts.js';
 import {checkProfile} from './profiles.js';
 import {type Check, Report, Scope} from './report.js';
-import {checkSchedule} from './schedules.js';
+import {checkReplay, checkSchedule} from './schedules.js';
 import type {Body, Size} from './solids.js';
 import {checkEnd, cutOf, type Knowledge, machineOf} from './tables.js';
 
@@ -83,11 +84,17 @@ function checkResult(scope: Scope, endpoint: string, answer: Body, know: Knowled
     case 'pulse-schedules':
       checkSchedule(scope, request, result, machineOf(request['machine'], know));
       return;
+    case 'replays':
+      checkReplay(scope, request, result, machineOf(request['machine'], know));
+      return;
     case 'parts':
       checkPart(scope, request, result, know);
       return;
     case 'grooves':
       checkGroove(scope, request, result);
+      return;
+    case 'mill-paths':
+      checkMill(scope, request, result);
       return;
     case 'holes':
       checkHoles(scope, request, result, know.sizes);

@@ -13,6 +13,7 @@ export interface Solid {
 }
 
 export type Body = {[name: string]: Json};
+export type Numbers = {[name: string]: number};
 export interface Size {
   outer_diameter_mm: number;
   wall_mm: number;

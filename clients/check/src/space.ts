@@ -9,6 +9,8 @@ export interface Frame {
 }
 
 export const RAD = Math.PI / 180;
+/** An angle in degrees, from -180 on and below 180. */
+export const wrapped = (deg: number): number => ((((deg + 180) % 360) + 360) % 360) - 180;
 export const add = (a: V3, b: V3): V3 => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 export const sub = (a: V3, b: V3): V3 => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 export const mul = (a: V3, k: number): V3 => [a[0] * k, a[1] * k, a[2] * k];
