@@ -1,7 +1,7 @@
 import {batch, signal} from '@preact/signals';
 import * as address from './address';
 import {byId, save} from './dom';
-import {draftOf, keep, newId} from './drafts';
+import {draftOf, keep, newId, takeOver} from './drafts';
 import {Form} from './form';
 import {clone, type Row} from './json';
 import {keyed} from './key';
@@ -71,6 +71,7 @@ export class Console {
     machines: Machine[],
     tubes: Tube[],
   ) {
+    takeOver();
     const sizes = new Map(tubes.map((t) => [t.size, {outer: t.outer_diameter_mm, wall: t.wall_mm}]));
     this.context = contextOf(sizes, new Map(machines.map((m) => [m.name, m.machine])));
     this.schedules = [...new Set([...sizes.keys()].flatMap((size) => /^NPS \S+ (.+)$/.exec(size)?.[1] ?? []))];

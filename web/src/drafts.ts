@@ -48,11 +48,12 @@ export const newId = () => Array.from(crypto.getRandomValues(new Uint8Array(9)),
 
 let writing: Promise<unknown> | undefined;
 let next: Draft | undefined;
+let last: Draft | undefined;
 
 /** Keeps a draft. Of changes that come while one is being written the last is. */
 export function keep(draft: Draft): void {
   held.set(draft.id, draft);
-  next = draft;
+  next = last = draft;
   writing ??= (async () => {
     while (next) {
       const one: Draft = next;
@@ -61,6 +62,28 @@ export function keep(draft: Draft): void {
     }
     writing = undefined;
   })();
+}
+
+// A page that is left may take a write that has begun with it. This storage is written at once; the next page puts the draft where it belongs.
+const leaving = 'draft';
+globalThis.addEventListener?.('pagehide', () => {
+  if (!writing || !last) return;
+  try {
+    sessionStorage.setItem(leaving, JSON.stringify(last));
+  } catch {
+    // too large, or refused
+  }
+});
+
+/** Takes over the draft that the page before this one could not write. */
+export function takeOver(): void {
+  try {
+    const left = sessionStorage.getItem(leaving);
+    sessionStorage.removeItem(leaving);
+    if (left) keep(JSON.parse(left) as Draft);
+  } catch {
+    // refused, or of no draft
+  }
 }
 
 export const draftOf = async (id: string): Promise<Draft | undefined> =>

@@ -34,6 +34,23 @@ const many = () => {
 };
 
 export const checks = {
+  'a change is kept though the page is left at once': async ({browser, origin}) => {
+    const page = await open(browser, origin, '#/bevel-tables/source-000-table-1');
+    await answered(page);
+    const wall = page.locator('[data-pointer="/target/wall_mm"]');
+    await then(page, () => wall.fill('6'));
+    await page.waitForTimeout(600);  // its address has the job now
+    await Promise.all([page.waitForNavigation(), wall.evaluate((input) => {
+      input.value = '7';
+      input.dispatchEvent(new Event('input', {bubbles: true}));
+      location.reload();
+    })]);
+    await answered(page);
+    assert.equal(await wall.inputValue(), '7');
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  },
+
   'a job is saved as a file and opened again, whatever it is': async ({browser, origin}) => {
     const page = await open(browser, origin);
     await answered(page);
