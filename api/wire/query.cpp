@@ -224,8 +224,10 @@ FormatOptions read_options(Reader& in, std::vector<FieldIssue>& within) {
 /// Reports the reader's issues as issues of parameters.
 void finish(Reader& in, std::vector<FieldIssue>& issues) {
   for (auto& issue : in.finish_root()) {
-    const bool whole = std::ranges::find(kWhole, issue.pointer.substr(1)) != kWhole.end();
-    issue.pointer = pointer(issue.pointer.substr(1));
+    // Empty: a parameter whose name is too long to be repeated.
+    const auto name = issue.pointer.empty() ? std::string{} : issue.pointer.substr(1);
+    const bool whole = std::ranges::find(kWhole, name) != kWhole.end();
+    issue.pointer = pointer(name);
     if (issue.code == ErrorCode::not_a_number)
       issue.hint = whole ? "a whole number such as 2" : "a number such as 12.5";
     issues.push_back(std::move(issue));

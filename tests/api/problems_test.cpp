@@ -521,6 +521,12 @@ TEST(Problems, ALongUnknownNameIsCutAndNamedOnce) {
   EXPECT_LT(answer.outcome.body.size(), 3000U);
   EXPECT_NE(answer.outcome.body.find("a field whose name has 100000 bytes"), std::string::npos);
   EXPECT_EQ(answer.outcome.body.find(name.substr(0, 201)), std::string::npos);
+  const auto within = post("/v1/intersections", with(cut(), "cutters/0/" + name, Json{1.0}));
+  EXPECT_EQ(text(within.body, "errors/0/pointer"), "/cutters/0");
+  const auto query = post("/v1/bevel-tables", std::string_view("{}"), name);
+  ASSERT_TRUE(query.outcome.error);
+  EXPECT_EQ(text(*api::parse(query.outcome.body), "code"), "bad_request");
+  EXPECT_LT(query.outcome.body.size(), 3000U);
 }
 
 TEST(Envelope, EveryCodeHasAnAction) {
