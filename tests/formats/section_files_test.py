@@ -147,6 +147,43 @@ class SectionFiles(FormatTest):
         for chart in (self.service.text("intersections", curves, "format=svg"), self.service.text("bevel-tables", body, "format=svg")):
             self.assertTrue(re.search(rb"corner 1", chart))
 
+    def test_everyday_cuts_are_in_every_file(self):
+        """Sizes by name, in inches and with three decimals, a bore with sharp corners, an oval; a square cut of a laser, a land, a partner that is
+        lost in a jump; one surface alone."""
+        tube = {"kind": "tube", "id": "chord", "outer_diameter_mm": 168.3, "inclination_deg": 62.5, "clocking_deg": 30, "offset_mm": 3.125}
+        small = {"kind": "tube", "id": "pin", "outer_diameter_mm": 30, "inclination_deg": 90, "clocking_deg": 90, "offset_mm": 12, "height_mm": 95}
+        targets = {"name": {"size": "SHS 80x80x4 EN 10219"}, "hot": {"size": "RHS 100x50x4 EN 10210"},
+                   "inch": {"kind": "rectangular_tube", "height_mm": 50.8, "width_mm": 76.2, "wall_mm": 4.78, "corners": "astm_a500"},
+                   "decimals": {"kind": "rectangular_tube", "height_mm": 60.125, "width_mm": 40.375, "wall_mm": 2.951, "corner_radius_mm": 6.203},
+                   "sharp bore": {"kind": "rectangular_tube", "height_mm": 60, "width_mm": 40, "wall_mm": 3, "corner_radius_mm": 3.2},
+                   "oval": {"kind": "flat_oval_tube", "height_mm": 40, "width_mm": 90, "wall_mm": 3}}
+        table = {"root_surface": "inner", "groove": {"rule": "half_dihedral"}, "kerf_mm": 1.2, "smoothing": {"method": "none"},
+                 "torch": {"min_deg": -80, "max_deg": 80}}
+        cuts = {"bevel": table, "land": table | {"root_face_mm": 1, "kerf_mm": 0}, "laser": {"preset": "tube_laser", "kerf_mm": 0},
+                "jump": table | {"kerf_mm": 0, "contact": "none"}}
+        jumps = 0
+        for name, target in targets.items():
+            for cut, options in cuts.items():
+                with self.subTest(name, cut=cut):
+                    cutters = [tube, small] if cut == "jump" else [tube]
+                    body = {"target": target, "cutters": cutters} | options
+                    answer = self.service.answer("bevel-tables", body)
+                    jumps += any(event["kind"] == "jump" for event in answer["result"]["events"])
+                    counts, parts, volume = admesh(self.service.text("bevel-tables", body, "format=stl"))
+                    self.assertEqual(({k: v for k, v in counts.items() if v}, parts, volume > 0), ({}, 1, True))
+                    outside = answer["result"]["section"]["girth_mm"]
+                    for view in ("template", "tube"):
+                        drawing = read(self.service.text("bevel-tables", body, f"format=dxf&view={view}"))
+                        self.assertEqual(drawing.audit().errors, [])
+                    root = xml.fromstring(self.service.text("bevel-tables", body, "format=svg&view=template"))
+                    at = {e.get("id"): float(e.get("x1")) for e in root.iter(f"{SVG}line") if e.get("id") in ("seam-0", "seam-360")}
+                    self.assertAlmostEqual(at["seam-360"] - at["seam-0"], outside, delta=0.02)
+            for surfaces in ("inner", "outer", "both"):
+                curves = {"target": target, "cutters": [tube], "surfaces": surfaces}
+                for query in ("format=svg", "format=svg&view=template", "format=pdf&paper=a4", "format=dxf", "format=dxf&view=tube", "format=csv"):
+                    self.service.text("intersections", curves, query)
+        self.assertGreater(jumps, 0, "no partner is lost in a jump")
+
     def test_what_shows_round_walls_is_refused_by_its_name(self):
         body, _ = cut_by_tube(self.rng)
         for query, name in (("format=svg&view=section", "view"), ("format=nc1", "format"), ("format=step", "format")):
