@@ -20,11 +20,6 @@
 namespace tubecut::api {
 namespace {
 
-std::vector<double> in_degrees(std::vector<double> radians) {
-  for (auto& v : radians) v *= kDegPerRad;
-  return radians;
-}
-
 double root_radius(const bevel::TableSpec& spec) {
   return spec.root_surface == bevel::RootSurface::outer ? spec.target.outer_radius
                                                         : spec.target.inner_radius();
@@ -54,12 +49,6 @@ Chart bevel_chart(const bevel::TableSpec& spec, const bevel::Table& table, const
   for (const auto& event : events)
     out.marks.push_back({rho * event.phi, change_of_partner(caption, event.from, event.to)});
   return out;
-}
-
-/// Returns one revolution, with the first value again if it closes.
-std::vector<double> closed(std::vector<double> values, double turn = 0.0) {
-  if (!values.empty()) values.push_back(values.front() + turn);
-  return values;
 }
 
 /// Stretches of one partner after another, to the end of the turn.

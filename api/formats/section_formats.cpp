@@ -43,21 +43,12 @@ std::string section_bevel_csv(const bevel::TableSpec& spec, const bevel::Section
 
 namespace {
 
-/// Returns one turn, with its first value again where it closes.
-std::vector<double> closed(std::vector<double> values, double turn = 0.0) {
-  if (!values.empty()) values.push_back(values.front() + turn);
-  return values;
-}
+constexpr std::string_view kTemplate = "Wrap template 1:1";
 
 std::vector<double> girths(const std::vector<section::Station>& at, double girth) {
   std::vector<double> out;
   for (const auto& one : at) out.push_back(one.s);
   return closed(std::move(out), girth);
-}
-
-std::vector<double> in_degrees(std::vector<double> radians) {
-  for (auto& v : radians) v *= kDegPerRad;
-  return closed(std::move(radians));
 }
 
 /// Marks the changes of partner, and tints the corners.
@@ -92,21 +83,22 @@ Chart profile_chart(const section::Section& section, const joint::SectionInterse
 std::vector<Chart> bevel_charts(const SectionCut& cut, const Caption& caption) {
   const auto& t = cut.table;
   const auto s = girths(t.at, t.girth);
-  Chart b{
-      .title = "Cutting angle B round the tube",
-      .x_label = "girth, mm",
-      .y_label = "B, °, outer edge into part",
-      .series = {
-          {.name = "as the groove requires",
-           .x = s,
-           .y = in_degrees(t.b_raw),
-           .color = "#a2998c",
-           .dashed = true},
-          {.name = "minimum that clears the partners",
-           .x = s,
-           .y = in_degrees(t.b_required),
-           .color = "#2c6a9b"},
-          {.name = "as the torch follows it", .x = s, .y = in_degrees(t.b), .color = "#c2571a"}}};
+  Chart b{.title = "Cutting angle B round the tube",
+          .x_label = "girth, mm",
+          .y_label = "B, °, outer edge into part",
+          .series = {{.name = "as the groove requires",
+                      .x = s,
+                      .y = closed(in_degrees(t.b_raw)),
+                      .color = "#a2998c",
+                      .dashed = true},
+                     {.name = "minimum that clears the partners",
+                      .x = s,
+                      .y = closed(in_degrees(t.b_required)),
+                      .color = "#2c6a9b"},
+                     {.name = "as the torch follows it",
+                      .x = s,
+                      .y = closed(in_degrees(t.b)),
+                      .color = "#c2571a"}}};
   tell_places(cut.section.outer(), t.outer_events, caption, b);
   Chart edges{.title = "Finished edges",
               .x_label = "girth, mm",
@@ -117,17 +109,22 @@ std::vector<Chart> bevel_charts(const SectionCut& cut, const Caption& caption) {
   return {std::move(b), std::move(edges)};
 }
 
-constexpr std::string_view kTemplate = "Wrap template 1:1";
+/// Prints the template, or the charts of another view.
+template <class Charts>
+std::string svg(const Development& development, Charts&& charts, const Caption& caption) {
+  if (caption.view == "template")
+    return print_svg(wrap_template(development, caption), kTemplate, caption.stop);
+  refuse_paper(caption);
+  return print_charts(charts(), caption);
+}
 
 }  // namespace
 
 std::string section_svg(const section::Section& section, const joint::SectionIntersection& cut,
                         const Caption& caption) {
-  if (caption.view == "template")
-    return print_svg(wrap_template(developed(section, cut, BoreOn::outside), caption), kTemplate,
-                     caption.stop);
-  refuse_paper(caption);
-  return print_charts({profile_chart(section, cut, caption)}, caption);
+  return svg(
+      developed(section, cut, BoreOn::outside),
+      [&] { return std::vector{profile_chart(section, cut, caption)}; }, caption);
 }
 
 std::string section_pdf(const section::Section& section, const joint::SectionIntersection& cut,
@@ -142,13 +139,14 @@ std::string section_dxf(const section::Section& section, const joint::SectionInt
 }
 
 std::string section_bevel_svg(const SectionCut& cut, const Caption& caption) {
-  if (caption.view == "template")
-    return print_svg(wrap_template(developed(cut.section, cut.table, BoreOn::outside), caption),
-                     kTemplate, caption.stop);
-  refuse_paper(caption);
-  auto charts = bevel_charts(cut, caption);
-  if (caption.view == "b_curve") charts.pop_back();
-  return print_charts(charts, caption);
+  return svg(
+      developed(cut.section, cut.table, BoreOn::outside),
+      [&] {
+        auto charts = bevel_charts(cut, caption);
+        if (caption.view == "b_curve") charts.pop_back();
+        return charts;
+      },
+      caption);
 }
 
 std::string section_bevel_pdf(const SectionCut& cut, const Caption& caption) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -59,6 +60,11 @@ struct Finished {
 
 [[nodiscard]] Finished finished(const NodeSpec& spec, const Nodes& nodes, std::size_t member,
                                 const Beside& beside);
+
+/// Returns the largest distance of the generators of a bundle from its middle one.
+[[nodiscard]] inline double bundle_reach(double rho, double half_rho, double half_phi) {
+  return std::sqrt(half_rho * half_rho + rho * (rho + half_rho) * half_phi * half_phi);
+}
 
 /// Overlap of less depth is not reported, because the verification of two cuts tolerates as much.
 inline constexpr double kLeastShared = 0.01;  // mm

@@ -10,6 +10,7 @@
 #include "api/formats/text.hpp"
 #include "api/verdict.hpp"
 #include "api/wire/words.hpp"
+#include "core/base/angle.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -308,6 +309,16 @@ std::string job_in_words(Caption caption) {
 }
 
 }  // namespace
+
+std::vector<double> closed(std::vector<double> values, double turn) {
+  if (!values.empty()) values.push_back(values.front() + turn);
+  return values;
+}
+
+std::vector<double> in_degrees(std::vector<double> radians) {
+  for (auto& v : radians) v *= kDegPerRad;
+  return radians;
+}
 
 std::string print_charts(const std::vector<Chart>& charts, const Caption& caption) {
   const bool loud = caption.verdict.status != "ok";

@@ -50,6 +50,11 @@ struct Chart {
   bool undistorted = false;  // one scale for both axes: a drawing
 };
 
+/// Return one revolution with its first value again where it closes, `turn` later; and angles in
+/// degrees.
+[[nodiscard]] std::vector<double> closed(std::vector<double> values, double turn = 0.0);
+[[nodiscard]] std::vector<double> in_degrees(std::vector<double> radians);
+
 /// Returns the charts one below the other as image/svg+xml, above them the verdict, below them the
 /// job. Coordinates are printed to 0.01 px. If several consecutive points of a curve lie in one
 /// column of pixels, only the first, the last, the lowest and the highest are printed: the picture

@@ -32,7 +32,7 @@ std::vector<std::string> header(const Development& d, const TemplateField& field
       way_up(d) + "; " +
           (c.options.mirror ? "MIRRORED: print side towards the tube" : "print side out"),
       "blue: outer edge; green dashed: inner edge, " +
-          std::string(d.section ? "square under its place" : "at its phi") +
+          std::string(d.section ? "straight through the wall" : "at its phi") +
           "; red: torch line on the outer wall",
       "datum z = " + mm(field.z_datum) + " from " +
           (d.whole ? "the start's long point" : "the frame's origin"),

@@ -25,7 +25,9 @@ struct Row {
   std::vector<Eigen::Vector2d> cut;
 };
 
-double unsmoothed(const bevel::TableSpec& spec, const bevel::Table& t, std::size_t i) {
+/// B before smoothing, of a table of either kind.
+template <class Table>
+double unsmoothed(const bevel::TableSpec& spec, const Table& t, std::size_t i) {
   const bool raised =
       spec.contact == bevel::Contact::inner || spec.contact == bevel::Contact::automatic;
   const double b = raised ? std::max(t.b_raw[i], t.b_required[i]) : t.b_raw[i];
@@ -178,12 +180,8 @@ SectionRow section_row(const bevel::TableSpec& spec, const bevel::SectionTable& 
   SectionRow out{.s = t.at[i].s, .z_inner = t.z_inner[i], .z_outer = t.z_outer[i]};
   if (!t.z_face.empty()) out.z_face = t.z_face[i];
   if (which == Smoothed::after) return out;
-  const bool raised =
-      spec.contact == bevel::Contact::inner || spec.contact == bevel::Contact::automatic;
-  const double b = std::clamp(raised ? std::max(t.b_raw[i], t.b_required[i]) : t.b_raw[i],
-                              -kSteepest, kSteepest);
   const double land = out.z_face ? spec.root_face : 0.0;
-  const double rise = (t.wall[i] - land) * elementary::tan(b);
+  const double rise = (t.wall[i] - land) * elementary::tan(unsmoothed(spec, t, i));
   if (spec.root_surface == bevel::RootSurface::inner)
     out.z_outer = out.z_face.value_or(out.z_inner) + rise;
   else

@@ -141,9 +141,7 @@ class Entry {
   struct Cell {
     double phi, half_phi, rho, half_rho;
 
-    [[nodiscard]] double off() const {
-      return std::sqrt(half_rho * half_rho + rho * (rho + half_rho) * half_phi * half_phi);
-    }
+    [[nodiscard]] double off() const { return detail::bundle_reach(rho, half_rho, half_phi); }
     void divide(std::vector<Cell>& to) const {
       auto one = *this, two = *this;
       if (half_rho > rho * half_phi) {

@@ -33,9 +33,7 @@ struct Cell {
   Interval z;
 
   /// Returns the largest distance of its generators from the middle one.
-  [[nodiscard]] double off() const {
-    return std::sqrt(half_rho * half_rho + rho * (rho + half_rho) * half_phi * half_phi);
-  }
+  [[nodiscard]] double off() const { return bundle_reach(rho, half_rho, half_phi); }
 };
 
 /// A straight line relative to an axis: the squared distance is least^2 + sine^2 (z - at)^2.
