@@ -53,9 +53,9 @@ struct BevelTables {
   }
 
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
-    auto section = std::move(spec.section);
+    const auto section = spec.section;
     TRY(auto resolved, api::resolve(BevelTableRequest(std::move(spec)), stop));
-    return Spec{std::move(resolved), std::move(section)};
+    return Spec{std::move(resolved), section};
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     if (spec.section) {

@@ -230,11 +230,12 @@ void TemplateLabels::write_hole(Writing& w, const Hole& hole) const {
     named = named || (place > box.low.y && w.put({x, place}, name, l)) ||
             put_somewhere(name, l, {0.75, 0.65, 0.55, 0.85, 0.3, 0.15}) ||
             w.put({x, box.high.y + 1.5}, name, l) || w.put({x, box.low.y - 5.5}, name, l);
-    const bool written = std::ranges::any_of(std::initializer_list{5.0, 4.0, 3.2}, [&](double h) {
-      auto large = scrap;
-      large.height = h;
-      return put_somewhere("SCRAP", large, {0.45, 0.35, 0.25, 0.6});
-    });
+    const bool written =
+        std::ranges::any_of(std::initializer_list<double>{5.0, 4.0, 3.2}, [&](double h) {
+          auto large = scrap;
+          large.height = h;
+          return put_somewhere("SCRAP", large, {0.45, 0.35, 0.25, 0.6});
+        });
     if (written || put_somewhere("SCRAP", scrap, {0.45, 0.35, 0.25, 0.6, 0.7, 0.15})) continue;
     const double half_scrap = 0.5 * text_width("SCRAP", scrap.height, true) + 1.0;
     const double beside =
