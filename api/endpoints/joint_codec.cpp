@@ -12,7 +12,7 @@ namespace tubecut::api {
 namespace {
 
 /// Who cuts a target that is not round.
-constexpr std::string_view kSectionPaths = "/v1/intersections and /v1/bevel-tables";
+constexpr std::string_view kSectionPaths = "/v1/intersections, /v1/bevel-tables and /v1/parts";
 
 constexpr double kBendRadiusMax = 50'000.0;  // mm; longer bends are rolled, not elbows
 

@@ -9,6 +9,7 @@
 #include "api/endpoints/frames/renaming.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
+#include "api/endpoints/section_bevel_table.hpp"
 #include "api/limits.hpp"
 #include "api/wire/part_names.hpp"
 #include "core/base/try.hpp"
@@ -198,6 +199,7 @@ part::EndSpec decode_end(Reader& in, const std::string& end, const bevel::TableS
   out.cut.partners = decode_cutters(in);
   decode_end_joints(in, end, out.cut, request.warnings);
   decode_cut(in, false, request.preset, out.cut);
+  if (request.section) refuse_round_only(in, out.cut);
   return out;
 }
 
@@ -227,18 +229,38 @@ std::vector<part::Mark> decode_marks(Reader& in) {
   });
 }
 
+/// Requires a direct target's length, and takes the part's name from it.
+void decode_part_target(Reader& in, std::string& name) {
+  if (!in.is<Json::Object>("target")) return;
+  const auto* target = in.find("target");
+  if (target->find("length_mm") == nullptr)
+    in.issue({.code = ErrorCode::missing_field,
+              .pointer = "target/length_mm",
+              .hint = "between the two work points"});
+  if (const auto* id = target->find("id"))
+    if (const auto* text = id->as<std::string>()) name = *text;
+}
+
+/// A part of a tube that is not round. Its datum line is the middle of face 1.
+void decode_section_part(Reader& in, PartRequest& out) {
+  out.section = decode_section_target(in);
+  decode_part_target(in, out.part.name);
+  in.choice("datum", kOnly<Datum::up>, Datum::up);
+  constexpr std::string_view kRoundOnly = "requires a round target";
+  refuse_fields(in, {"holes", "cutouts", "marks", "seam_deg"}, kRoundOnly);
+  if (out.preset == Preset::tube_laser)
+    for (const auto name : {"min_tongue_mm", "min_web_mm", "min_hole_to_end_mm"})
+      refuse_limit(in, name, kRoundOnly);
+  bevel::TableSpec once;
+  once.target = target_of(*out.section);
+  decode_once(in, out.preset, once);
+  decode_ends(in, once, out);
+}
+
 void decode_direct(Reader& in, PartRequest& out) {
   auto& p = out.part;
   p.target = decode_target(in);
-  if (in.is<Json::Object>("target")) {
-    const auto* target = in.find("target");
-    if (target->find("length_mm") == nullptr)
-      in.issue({.code = ErrorCode::missing_field,
-                .pointer = "target/length_mm",
-                .hint = "between the two work points"});
-    if (const auto* id = target->find("id"))
-      if (const auto* name = id->as<std::string>()) p.name = *name;
-  }
+  decode_part_target(in, p.name);
   const auto datum = decode_datum(in, Datum::up, true);
   out.datum = datum.datum;
   out.seam = datum.seam;
@@ -304,7 +326,7 @@ std::vector<std::string> names(const joint::NodeSpec& node, const std::vector<st
 
 }  // namespace
 
-PartRequest decode_part_request(Reader& in) {
+PartRequest decode_part_request(Reader& in, Tubes tubes) {
   PartRequest out;
   out.preset = decode_preset(in);
   check_accepts(in, out.preset);
@@ -315,6 +337,8 @@ PartRequest decode_part_request(Reader& in) {
   }
   if (which == 0)
     decode_member(in, out);
+  else if (tubes == Tubes::all && has_section_target(in))
+    decode_section_part(in, out);
   else
     decode_direct(in, out);
   if (in.understood("datum")) check_seam_limit(in, out.preset, out.seam_known());
@@ -327,6 +351,18 @@ PartRequest decode_part_request(Reader& in) {
 }
 
 Result<PartRequest> resolve(PartRequest r, const std::stop_token& stop) {
+  if (r.section) {
+    auto& p = r.part;
+    r.of_section = {.section = r.section->section,
+                    .length = r.section->length.value_or(0.0),
+                    .start = p.start,
+                    .finish = p.finish,
+                    .name = p.name,
+                    .clamping = p.clamping,
+                    .facing = p.facing,
+                    .density = p.density};
+    return r;
+  }
   if (!r.member) {
     TRY(const auto zero,
         part::datum_angle(r.datum, r.seam, r.part.start.cut.partners, r.part.finish.cut.partners));

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "api/endpoints/section_target.hpp"
 #include "api/endpoints/tube_laser.hpp"
 #include "api/wire/reader.hpp"
 #include "core/part/member.hpp"
+#include "core/part/section/section_part.hpp"
 
 namespace tubecut::api {
 
@@ -16,6 +18,8 @@ struct PartRequest {
   Preset preset = Preset::none;
   part::PartSpec part;
   std::optional<part::MemberSpec> member = {};  // of a node
+  std::optional<SectionTarget> section = {};    // of a tube that is not round, given directly
+  part::SectionPartSpec of_section = {};        // filled in by `resolve` in place of `part`
   part::Datum datum = part::Datum::up;          // of a part given directly
   Angle seam = {};
   bool start_kerf = false, finish_kerf = false;  // an end has its own
@@ -28,7 +32,9 @@ struct PartRequest {
   std::vector<Warning> warnings = {};
 };
 
-[[nodiscard]] PartRequest decode_part_request(Reader& in);
+/// Which tubes the endpoint takes as a part.
+enum class Tubes { round, all };
+[[nodiscard]] PartRequest decode_part_request(Reader& in, Tubes tubes);
 
 /// Errors  those of part::find_member and part::datum_angle; members as in the request.
 [[nodiscard]] Result<PartRequest> resolve(PartRequest request, const std::stop_token& stop);

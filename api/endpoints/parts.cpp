@@ -10,11 +10,15 @@
 #include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
+#include "api/endpoints/part_codec.hpp"
 #include "api/endpoints/part_request.hpp"
 #include "api/endpoints/place_text.hpp"
+#include "api/endpoints/section_part.hpp"
 #include "api/formats/drawing/partner_names.hpp"
 #include "api/formats/gcode/gcode.hpp"
 #include "api/formats/part_formats.hpp"
+#include "api/formats/section_formats.hpp"
+#include "api/formats/section_part_formats.hpp"
 #include "api/formats/step/step.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
@@ -74,6 +78,42 @@ void encode_end(const PartRequest& spec, const Parts::Out& out, bool finish, Wri
   if (out.laser) encode_end_report(end.table, finish ? out.laser->finish : out.laser->start, w);
 }
 
+void encode_sequence(const part::Part& part, Writer& w) {
+  const auto places = places_in_answer(part.cutouts);
+  w.array("sequence", part.sequence, [&](Writer& each, const Step& step) {
+    each.object([&](Writer& o) {
+      o.field("what", name_of(step.what));
+      o.field("index", step.what == Step::What::cutout ? places[step.index] : step.index);
+      o.field("z_from_mm", step.z_from);
+      o.field("z_to_mm", step.z_to);
+    });
+  });
+}
+
+/// `PrintSection`: nullptr if the format prints round parts only.
+template <auto Print, auto PrintSection = nullptr>
+std::string print(const PartRequest& spec, const Parts::Out& out, const Caption& caption) {
+  auto named = caption;
+  const auto* ends = caption.request != nullptr ? caption.request->find("ends") : nullptr;
+  const auto of = [&](const char* end, const std::vector<std::string>& ids, std::size_t count) {
+    return partner_names(ends != nullptr ? ends->find(end) : nullptr, ids, count);
+  };
+  const auto count = [&](bool finish) {
+    if (out.of_section)
+      return (finish ? out.of_section->finish : out.of_section->start).spec.partners.size();
+    return (finish ? out.finish : out.start).spec.partners.size();
+  };
+  named.partners = of("start", spec.start_ids, count(false));
+  named.finish_partners = of("finish", spec.finish_ids, count(true));
+  if (!out.of_section) return Print(spec.part, out, named);
+  if constexpr (std::is_null_pointer_v<decltype(PrintSection)>)
+    throw no_format_of_section("csv, svg, pdf, dxf and nc1");
+  else
+    return PrintSection(spec.of_section, *out.of_section, named);
+}
+
+}  // namespace
+
 void encode_lengths(const part::Lengths& lengths, Writer& o) {
   o.field("work_point_mm", lengths.work_point);
   o.field("long_mm", lengths.longest);
@@ -96,39 +136,20 @@ void encode_dimension(Writer& each, const part::CheckDimension& d) {
   });
 }
 
-void encode_sequence(const part::Part& part, Writer& w) {
-  const auto places = places_in_answer(part.cutouts);
-  w.array("sequence", part.sequence, [&](Writer& each, const Step& step) {
-    each.object([&](Writer& o) {
-      o.field("what", name_of(step.what));
-      o.field("index", step.what == Step::What::cutout ? places[step.index] : step.index);
-      o.field("z_from_mm", step.z_from);
-      o.field("z_to_mm", step.z_to);
-    });
-  });
-}
-
-template <auto Print>
-std::string print(const PartRequest& spec, const Parts::Out& out, const Caption& caption) {
-  auto named = caption;
-  const auto* ends = caption.request != nullptr ? caption.request->find("ends") : nullptr;
-  const auto of = [&](const char* end, const std::vector<std::string>& ids, std::size_t count) {
-    return partner_names(ends != nullptr ? ends->find(end) : nullptr, ids, count);
-  };
-  named.partners = of("start", spec.start_ids, out.start.spec.partners.size());
-  named.finish_partners = of("finish", spec.finish_ids, out.finish.spec.partners.size());
-  return Print(spec.part, out, named);
-}
-
-}  // namespace
-
-Parts::Spec Parts::decode(Reader& in) { return decode_part_request(in); }
+Parts::Spec Parts::decode(Reader& in) { return decode_part_request(in, Tubes::all); }
 
 Result<Parts::Spec> Parts::resolve(Spec spec, const std::stop_token& stop) {
   return api::resolve(std::move(spec), stop);
 }
 
 Result<Parts::Out> Parts::compute(const Spec& spec, const std::stop_token& stop) {
+  if (spec.section) {
+    auto made = part::section_part(spec.of_section, stop);
+    if (!made) return tl::unexpected(on_request(spec, made.error()));
+    Out out;
+    out.of_section = *std::move(made);
+    return out;
+  }
   auto part = part::part(spec.part, stop);
   if (!part) return tl::unexpected(on_request(spec, part.error()));
   Out out{*std::move(part)};
@@ -137,16 +158,18 @@ Result<Parts::Out> Parts::compute(const Spec& spec, const std::stop_token& stop)
 }
 
 std::vector<Check> Parts::verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
+  if (out.of_section) return part::verify(spec.of_section, *out.of_section, stop);
   return part::verify(spec.part, out, stop);
 }
 
 std::vector<Warning> Parts::warnings(const Spec& spec, const Out& out) {
-  auto all = on_request(spec, out.warnings);
+  auto all = on_request(spec, out.of_section ? out.of_section->warnings : out.warnings);
   all.insert(all.end(), spec.warnings.begin(), spec.warnings.end());
   return all;
 }
 
 std::vector<Measure> Parts::measure(const Spec& spec, const Out& out) {
+  if (out.of_section) return measures_of(spec, *out.of_section);
   double gap = 0.0, extra = 0.0, b = 0.0;
   for (const auto* end : {&out.start, &out.finish}) {
     const auto& t = end->own;
@@ -170,6 +193,7 @@ std::vector<Measure> Parts::measure(const Spec& spec, const Out& out) {
 }
 
 void Parts::encode(const Spec& spec, const Out& out, Writer& w) {
+  if (out.of_section) return encode_part(spec, *out.of_section, w);
   w.object("frame", [&](Writer& o) {
     write_place(out.frame.origin, out.frame.rows, o);
     o.field("in", spec.member ? "world" : "start");
@@ -205,12 +229,20 @@ void Parts::encode(const Spec& spec, const Out& out, Writer& w) {
 
 const std::vector<Format<Parts::Spec, Parts::Out>>& Parts::formats() {
   static const std::vector<Format<Spec, Out>> kFormats{
-      {"csv", "text/csv", &print<part_csv>, {"cuts", "check_dimensions"}},
-      {"svg", "image/svg+xml", &print<part_svg>, {"work_order", "template"}, {"mirror", "paper"}},
-      {"pdf", "application/pdf", &print<part_pdf>, {"work_order", "template"}, {"mirror", "paper"}},
-      {"dxf", "image/vnd.dxf", &print<part_dxf>, {"template", "tube"}},
+      {"csv", "text/csv", &print<part_csv, section_part_csv>, {"cuts", "check_dimensions"}},
+      {"svg",
+       "image/svg+xml",
+       &print<part_svg, section_part_svg>,
+       {"work_order", "template"},
+       {"mirror", "paper"}},
+      {"pdf",
+       "application/pdf",
+       &print<part_pdf, section_part_pdf>,
+       {"work_order", "template"},
+       {"mirror", "paper"}},
+      {"dxf", "image/vnd.dxf", &print<part_dxf, section_part_dxf>, {"template", "tube"}},
       {"step", "model/step", &print<part_step>, {"smooth", "straight"}},
-      {"nc1", "application/x-dstv", &print<part_dstv>, {}, {}, false, true},
+      {"nc1", "application/x-dstv", &print<part_dstv, section_part_dstv>, {}, {}, false, true},
       {"gcode", "text/x-gcode", &print<part_gcode>, {}, gcode_options(), true, true}};
   return kFormats;
 }

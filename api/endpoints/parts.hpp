@@ -27,6 +27,7 @@ struct Parts {
   };
   struct Out : part::Part {
     std::optional<Laser> laser = {};
+    std::optional<part::SectionPart> of_section = {};  // instead of the rest
   };
   static constexpr std::string_view kId = "parts";
   static constexpr std::string_view kPath = "/v1/parts";
@@ -52,6 +53,7 @@ struct Parts {
       {"cutout_edge", "1e-9", "mm"},
       {"cutout_gouge", "0.01", "mm"},
       {"cutout_volume", "1e-9, of itself", ""},
+      {"on_section", "1e-9", "mm"},
       {"placed", "1e-9 max(1, 1e-3 (radius + length))", "mm"},
       {"volume", "1e-9, of itself", ""},
       {"check_dimensions", "1e-9 max(1, 1e-3 (radius + length))", "mm"},

@@ -27,7 +27,58 @@ void encode_gap(std::string_view name, const bevel::SectionTable& t, const bevel
   });
 }
 
-void encode_events(const bevel::SectionTable& t, Writer& w) {
+void encode_limits(const bevel::TableSpec& spec, Writer& o) {
+  o.degrees("mutation_limit_deg", spec.mutation_limit.rad());
+  const auto* envelope = std::get_if<bevel::EnvelopeSmoothing>(&spec.smoothing);
+  if (envelope == nullptr) return;
+  o.degrees("max_slope_deg_per_mm", envelope->limits.slope);
+  o.degrees("max_curvature_deg_per_mm2", envelope->limits.curvature);
+}
+
+/// Every column that a section's table may have.
+std::vector<std::string> all_names() {
+  bevel::TableSpec all;
+  all.root_face = 1.0;
+  all.groove = bevel::ZonedGroove{};
+  all.untilted = true;
+  return section_bevel_column_names(all);
+}
+
+}  // namespace
+
+void refuse_fields(Reader& in, std::initializer_list<const char*> fields, std::string_view hint) {
+  for (const auto* field : fields) {
+    in.note(field);
+    if (in.has(field))
+      in.issue(
+          {.code = ErrorCode::unsupported_combination, .pointer = field, .hint = std::string(hint)},
+          in.find(field));
+  }
+}
+
+void refuse_round_only(Reader& in, const bevel::TableSpec& spec) {
+  const auto refuse = [&](std::string pointer, Json got, Json limit, std::string hint) {
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = std::move(pointer),
+              .got = std::move(got),
+              .limit = std::move(limit),
+              .hint = std::move(hint)});
+  };
+  if (spec.dihedral != bevel::Dihedral::weld_side)
+    refuse("dihedral", *in.find("dihedral"), Json{"weld_side"},
+           "inside and as_published require a round target");
+  if (std::holds_alternative<bevel::HermiteSmoothing>(spec.smoothing))
+    refuse("smoothing/method", Json{"hermite"}, Json{"envelope|none"},
+           "hermite requires a round target");
+  if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove))
+    for (std::size_t i = 0; i < zoned->zones.size(); ++i)
+      if (const auto& gap = zoned->zones[i].root_gap)
+        refuse("groove/zones/" + std::to_string(i) + "/root_gap_mm", Json{*gap}, Json{},
+               "root gaps of zones require a round target; root_gap_mm of the request applies to "
+               "all zones");
+}
+
+void encode_section_lists(const bevel::SectionTable& t, Writer& w) {
   struct Placed {
     const joint::SectionEvent* event;
     bool outer;
@@ -46,15 +97,7 @@ void encode_events(const bevel::SectionTable& t, Writer& w) {
   });
 }
 
-void encode_limits(const bevel::TableSpec& spec, Writer& o) {
-  o.degrees("mutation_limit_deg", spec.mutation_limit.rad());
-  const auto* envelope = std::get_if<bevel::EnvelopeSmoothing>(&spec.smoothing);
-  if (envelope == nullptr) return;
-  o.degrees("max_slope_deg_per_mm", envelope->limits.slope);
-  o.degrees("max_curvature_deg_per_mm2", envelope->limits.curvature);
-}
-
-void encode_proof(const bevel::SectionTable& t, Writer& w) {
+void encode_section_proof(const bevel::SectionTable& t, Writer& w) {
   w.array("torch_binds", t.torch_binds, [](Writer& each, const bevel::SectionTable::Binding& v) {
     each.object([&](Writer& o) {
       o.field("from_girth_mm", v.from);
@@ -76,43 +119,15 @@ void encode_proof(const bevel::SectionTable& t, Writer& w) {
   });
 }
 
-/// Every column that a section's table may have.
-std::vector<std::string> all_names() {
-  bevel::TableSpec all;
-  all.root_face = 1.0;
-  all.groove = bevel::ZonedGroove{};
-  all.untilted = true;
-  return section_bevel_column_names(all);
+void encode_section_laser(const bevel::SectionTable& t, Writer& w) {
+  w.object("tube_laser", [&](Writer& o) {
+    if (!t.gaps.square.inner.empty()) {
+      encode_gap("gap", t, t.gaps.square, o);
+      encode_gap("bevelled_gap", t, t.gaps.bevelled, o);
+    }
+    o.field("reach_mm", reach(t));
+  });
 }
-
-/// Refuses fields that apply only to round targets, each at its own pointer.
-void refuse_round_only(Reader& in, const BevelTableRequest& spec) {
-  const auto refuse = [&](std::string pointer, Json got, Json limit, std::string hint) {
-    in.issue({.code = ErrorCode::unsupported_combination,
-              .pointer = std::move(pointer),
-              .got = std::move(got),
-              .limit = std::move(limit),
-              .hint = std::move(hint)});
-  };
-  if (spec.dihedral != bevel::Dihedral::weld_side)
-    refuse("dihedral", *in.find("dihedral"), Json{"weld_side"},
-           "inside and as_published require a round target");
-  if (std::holds_alternative<bevel::HermiteSmoothing>(spec.smoothing))
-    refuse("smoothing/method", Json{"hermite"}, Json{"envelope|none"},
-           "hermite requires a round target");
-  if (const auto* zoned = std::get_if<bevel::ZonedGroove>(&spec.groove))
-    for (std::size_t i = 0; i < zoned->zones.size(); ++i)
-      if (const auto& gap = zoned->zones[i].root_gap)
-        refuse("groove/zones/" + std::to_string(i) + "/root_gap_mm", Json{*gap}, Json{},
-               "root gaps of zones require a round target; root_gap_mm of the request applies to "
-               "all zones");
-  const auto* accept = in.find("accept");
-  if (const auto* tongue = accept != nullptr ? accept->find("min_tongue_mm") : nullptr;
-      tongue != nullptr && spec.preset == Preset::tube_laser)
-    refuse("accept/min_tongue_mm", *tongue, Json{}, "tongues are measured on round targets only");
-}
-
-}  // namespace
 
 SectionTarget decode_section_cut(Reader& in, BevelTableRequest& out) {
   in.exactly_one({"target", "node"});
@@ -122,6 +137,8 @@ SectionTarget decode_section_cut(Reader& in, BevelTableRequest& out) {
   out.sampling = decode_sampling(in);
   decode_table_options(in, out.preset, out);
   refuse_round_only(in, out);
+  if (out.preset == Preset::tube_laser)
+    refuse_limit(in, "min_tongue_mm", "tongues are measured on round targets only");
   out.columns = decode_columns(in, all_names(), section_bevel_column_names(out));
   return section;
 }
@@ -146,17 +163,12 @@ void encode_table(const bevel::TableSpec& spec, const bevel::SectionTable& t,
                   const std::vector<std::string>& columns, Writer& w) {
   w.object("points", [&](Writer& p) { bevel_columns(spec, t).only(columns).write(p); });
   w.field("b_sign", "outer_edge_into_part");
-  encode_events(t, w);
+  encode_section_lists(t, w);
   w.object("limits", [&](Writer& o) { encode_limits(spec, o); });
-  encode_proof(t, w);
+  encode_section_proof(t, w);
   w.field("length_mm", t.length_total);
   w.field("developed_length_mm", t.developed_total);
-  if (!spec.untilted) return;
-  w.object("tube_laser", [&](Writer& o) {
-    encode_gap("gap", t, t.gaps.square, o);
-    encode_gap("bevelled_gap", t, t.gaps.bevelled, o);
-    o.field("reach_mm", reach(t));
-  });
+  if (spec.untilted) encode_section_laser(t, w);
 }
 
 }  // namespace tubecut::api

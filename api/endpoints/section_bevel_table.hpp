@@ -1,6 +1,8 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "api/endpoints/bevel_table_codec.hpp"
@@ -16,6 +18,18 @@ namespace tubecut::api {
 /// Refuses, in addition to what is refused of a round target: dihedrals for comparison, hermite,
 /// root gaps of zones, and the limit of tongues.
 [[nodiscard]] SectionTarget decode_section_cut(Reader& in, BevelTableRequest& out);
+
+/// Refuses fields that a tube which is not round does not have.
+void refuse_fields(Reader& in, std::initializer_list<const char*> fields, std::string_view hint);
+/// Refuses values of a cut that apply only to round targets, each at its own pointer: other
+/// dihedrals, hermite, root gaps of zones.
+void refuse_round_only(Reader& in, const bevel::TableSpec& spec);
+
+/// Write members of a table's `result`: events and mutations; where the torch's range binds, the
+/// penetration and the torch line; the gaps of an untilted cut.
+void encode_section_lists(const bevel::SectionTable& table, Writer& w);
+void encode_section_proof(const bevel::SectionTable& table, Writer& w);
+void encode_section_laser(const bevel::SectionTable& table, Writer& w);
 
 /// Returns the values that `accept` limits.
 [[nodiscard]] std::vector<Measure> measures_of(const bevel::TableSpec& spec,

@@ -21,16 +21,6 @@ E only(Reader& in, std::string_view name, const std::array<Option<E>, N>& option
   return out;
 }
 
-void refuse_limit(Reader& in, std::string_view name, std::string_view hint) {
-  const auto* accept = in.find("accept");
-  if (accept == nullptr || accept->as<Json::Object>() == nullptr) return;
-  if (const auto* value = accept->find(name))
-    in.issue({.code = ErrorCode::unsupported_combination,
-              .pointer = "accept/" + std::string(name),
-              .hint = std::string(hint)},
-             value);
-}
-
 void encode_gap(std::string_view name, const bevel::Table& table, const bevel::EdgeGaps& gaps,
                 Writer& w) {
   const auto most = bevel::greatest(gaps);
@@ -64,6 +54,16 @@ void encode_web(std::string_view name, const part::Web& web, Writer& w) {
 Preset decode_preset(Reader& in) {
   in.note("preset");
   return in.has("preset") ? in.tag("preset", kPresets).value_or(Preset::none) : Preset::none;
+}
+
+void refuse_limit(Reader& in, std::string_view name, std::string_view hint) {
+  const auto* accept = in.find("accept");
+  if (accept == nullptr || accept->as<Json::Object>() == nullptr) return;
+  if (const auto* value = accept->find(name))
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "accept/" + std::string(name),
+              .hint = std::string(hint)},
+             value);
 }
 
 void check_accepts(Reader& in, Preset preset) {

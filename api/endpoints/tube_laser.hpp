@@ -33,6 +33,8 @@ inline constexpr std::array<std::string_view, 2> kCutoutAccepts{"min_diameter_mm
 /// A limit that nothing would be measured for is an issue: without the preset, and of the seam
 /// where nobody says where it lies.
 void check_accepts(Reader& in, Preset preset);
+/// Refuses one limit, if `accept` has it.
+void refuse_limit(Reader& in, std::string_view name, std::string_view hint);
 void check_seam_limit(Reader& in, Preset preset, bool seam_known);
 
 /// With the preset: the square groove, no smoothing, a hole's own rule and tilt. Another choice is

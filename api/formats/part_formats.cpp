@@ -3,10 +3,10 @@
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/formats/csv.hpp"
 #include "api/formats/drawing/development.hpp"
+#include "api/formats/drawing/order/work_order.hpp"
 #include "api/formats/drawing/part_edges.hpp"
 #include "api/formats/drawing/pdf_sheets.hpp"
 #include "api/formats/drawing/svg_sheets.hpp"
-#include "api/formats/drawing/work_order.hpp"
 #include "api/formats/drawing/wrap_template.hpp"
 #include "api/formats/dxf/dstv.hpp"
 #include "api/formats/dxf/dxf.hpp"
@@ -42,10 +42,19 @@ std::vector<std::pair<std::string, Columns>> cuts(const part::PartSpec& spec, co
   return out;
 }
 
-Columns dimensions(const part::Part& part) {
+std::vector<Canvas> sheets(const part::PartSpec& spec, const part::Part& part,
+                           const Caption& caption) {
+  if (caption.view == "template") return wrap_template(developed(spec, part), caption);
+  refuse_options_of_template(caption);
+  return work_order(spec, part, caption);
+}
+
+}  // namespace
+
+Columns dimension_columns(const std::vector<part::CheckDimension>& dimensions) {
   std::vector<std::string> names, from, tools, changes;
   std::vector<double> values;
-  for (const auto& d : part.check_dimensions) {
+  for (const auto& d : dimensions) {
     names.push_back(d.name);
     values.push_back(d.value);
     tools.emplace_back(name_of(d.tool));
@@ -63,22 +72,18 @@ Columns dimensions(const part::Part& part) {
       .texts("changes_with", std::move(changes));
 }
 
-std::vector<Canvas> sheets(const part::PartSpec& spec, const part::Part& part,
-                           const Caption& caption) {
-  if (caption.view == "template") return wrap_template(developed(spec, part), caption);
-  refuse_paper(caption);
-  if (caption.options.mirror) throw UnfitOption{"mirror", "goes with view=template"};
-  return work_order(spec, part, caption);
-}
-
-std::string_view title(const Caption& caption) {
+std::string_view title_of_part(const Caption& caption) {
   return caption.view == "template" ? "Wrap template 1:1" : "Work order";
 }
 
-}  // namespace
+void refuse_options_of_template(const Caption& caption) {
+  refuse_paper(caption);
+  if (caption.options.mirror) throw UnfitOption{"mirror", "goes with view=template"};
+}
 
 std::string part_csv(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  if (caption.view == "check_dimensions") return Csv(caption).table(dimensions(part)).print();
+  if (caption.view == "check_dimensions")
+    return Csv(caption).table(dimension_columns(part.check_dimensions)).print();
   return Csv(caption)
       .remark(std::string("b_sign: ").append(kBSignInPart))
       .stacked("cut", cuts(spec, part, caption.stop))
@@ -86,11 +91,11 @@ std::string part_csv(const part::PartSpec& spec, const part::Part& part, const C
 }
 
 std::string part_svg(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  return print_svg(sheets(spec, part, caption), title(caption), caption.stop);
+  return print_svg(sheets(spec, part, caption), title_of_part(caption), caption.stop);
 }
 
 std::string part_pdf(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  return print_pdf(sheets(spec, part, caption), title(caption), caption.stop);
+  return print_pdf(sheets(spec, part, caption), title_of_part(caption), caption.stop);
 }
 
 std::string part_dxf(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "api/wire/columns.hpp"
 #include "api/wire/format.hpp"
 #include "core/part/part.hpp"
 
@@ -25,5 +28,11 @@ namespace tubecut::api {
                                     const Caption& caption);
 [[nodiscard]] std::string part_gcode(const part::PartSpec& spec, const part::Part& part,
                                      const Caption& caption);
+
+/// Of every tube's part: the check dimensions, the title of its sheets, and the options
+/// that only a template takes.
+[[nodiscard]] Columns dimension_columns(const std::vector<part::CheckDimension>& dimensions);
+[[nodiscard]] std::string_view title_of_part(const Caption& caption);
+void refuse_options_of_template(const Caption& caption);
 
 }  // namespace tubecut::api

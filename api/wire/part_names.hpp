@@ -36,7 +36,12 @@ inline constexpr auto kNames<part::Mistake> =
                                           {"clocking", part::Mistake::clocking},
                                           {"mirror", part::Mistake::mirror},
                                           {"b_sign", part::Mistake::b_sign},
-                                          {"pivot_length", part::Mistake::pivot_length}});
+                                          {"pivot_length", part::Mistake::pivot_length},
+                                          {"height", part::Mistake::height},
+                                          {"width", part::Mistake::width},
+                                          {"swapped", part::Mistake::swapped},
+                                          {"quarter_turn", part::Mistake::quarter_turn},
+                                          {"corner", part::Mistake::corner}});
 template <>
 inline constexpr auto kNames<part::Tool> =
     std::to_array<Option<part::Tool>>({{"wrap", part::Tool::wrap},

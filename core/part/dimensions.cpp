@@ -9,25 +9,20 @@
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
 #include "core/joint/joint.hpp"
-#include "core/math/rotation.hpp"
+#include "core/part/edge_mistakes.hpp"
+#include "core/part/gauge.hpp"
 
 namespace tubecut::part {
 namespace {
 
-constexpr double kSeen = 1.0;     // mm: visible with a tape
 constexpr double kSquare = 0.01;  // mm: a flatter end has no long point
 constexpr std::size_t kMost = 12, kLeast = 8;
-constexpr double kDiameterOff = 3.0, kWallOff = 2.0, kPivotOff = 5.0;  // mm
+constexpr double kDiameterOff = 3.0;  // mm
 constexpr double kClockingOff = 5.0 * kRadPerDeg;
 
 double girth(const Shape& s) { return kTwoPi * s.outer_radius; }
 
-/// One dimension, and its measurement on any shape.
-struct Gauge {
-  CheckDimension about;
-  std::function<double(const Shape&)> read;
-  bool around = false;  // a position on the circumference: modulo the circumference
-};
+using RoundGauge = Gauge<Shape>;
 
 const Edge& outer(const Shape& s, bool finish) { return finish ? s.finish_outer : s.start_outer; }
 const Edge& inner(const Shape& s, bool finish) { return finish ? s.finish_inner : s.start_inner; }
@@ -89,191 +84,124 @@ double throat_to_throat(const Shape& s) {
          std::max(s.start_outer.highest(), s.start_inner.highest());
 }
 
-Gauge gauge(std::string name, Tool tool, std::string from, std::function<double(const Shape&)> read,
-            bool around = false) {
-  return {.about = {.name = std::move(name),
-                    .value = 0.0,
-                    .tool = tool,
-                    .measured_from = std::move(from),
-                    .changes_with = {}},
-          .read = std::move(read),
-          .around = around};
-}
-
-void add_lengths(std::vector<Gauge>& out) {
+void add_lengths(std::vector<RoundGauge>& out) {
   for (const int deg : {0, 90, 180, 270}) {
     const std::string where =
         deg == 0 ? "on the datum line"
                  : "at " + std::to_string(deg / 90) + "/4 of the girth from the datum line";
-    out.push_back(gauge("length_at_" + std::to_string(deg), Tool::tape,
-                        "start edge to finish edge along the outside, " + where,
-                        [deg](const Shape& s) { return length_at(s, deg * kRadPerDeg); }));
+    out.push_back(gauge<Shape>("length_at_" + std::to_string(deg), Tool::tape,
+                               "start edge to finish edge along the outside, " + where,
+                               [deg](const Shape& s) { return length_at(s, deg * kRadPerDeg); }));
   }
 }
 
-void add_end(const Shape& shape, bool finish, std::vector<Gauge>& out) {
+void add_end(const Shape& shape, bool finish, std::vector<RoundGauge>& out) {
   const auto end = called(finish);
   if (!square(shape, finish)) {
-    out.push_back(gauge(
+    out.push_back(gauge<Shape>(
         end + "_long_girth", Tool::wrap,
         "datum line to the " + end + "'s long point, round the outside, the way phi grows",
         [finish](const Shape& s) {
           return s.outer_radius * outer(s, finish).phi[point(s, finish, true)];
         },
         true));
-    out.push_back(gauge(end + "_crown_chord", Tool::rule,
-                        "long point of the " + end + "'s outer edge straight to its short point",
-                        [finish](const Shape& s) { return crown_chord(s, finish); }));
+    out.push_back(
+        gauge<Shape>(end + "_crown_chord", Tool::rule,
+                     "long point of the " + end + "'s outer edge straight to its short point",
+                     [finish](const Shape& s) { return crown_chord(s, finish); }));
   }
   const double at = widest_overhang(shape, finish);
   if (std::abs(overhang(shape, finish, at)) < kSquare) return;
-  out.push_back(gauge(end + "_overhang", Tool::rule,
-                      "outer edge of the " + end +
-                          ", along the tube, to its inner edge: above zero where the inner edge "
-                          "reaches further, below where it ends before, " +
-                          on_girth(shape, at),
-                      [finish, at](const Shape& s) { return overhang(s, finish, at); }));
+  out.push_back(
+      gauge<Shape>(end + "_overhang", Tool::rule,
+                   "outer edge of the " + end +
+                       ", along the tube, to its inner edge: above zero where the inner edge "
+                       "reaches further, below where it ends before, " +
+                       on_girth(shape, at),
+                   [finish, at](const Shape& s) { return overhang(s, finish, at); }));
 }
 
 /// Adds further dimensions while they fit: the tip, and for a single end its long and short points.
-void add_more(const Shape& shape, std::vector<Gauge>& out) {
+void add_more(const Shape& shape, std::vector<RoundGauge>& out) {
   if (out.size() < kMost)
-    out.push_back(gauge("tip_to_tip", Tool::tape,
-                        "square laid on the start's tip to square on the finish's, along the tube",
-                        tip_to_tip));
+    out.push_back(gauge<Shape>(
+        "tip_to_tip", Tool::tape,
+        "square laid on the start's tip to square on the finish's, along the tube", tip_to_tip));
   for (const bool finish : {false, true})
     for (const bool longest : {true, false}) {
       if (square(shape, finish) || out.size() >= kMost) continue;
       const std::string which = longest ? "_long" : "_short";
-      out.push_back(gauge("length_at_" + called(finish) + which, Tool::tape,
-                          called(finish) + "'s " + (longest ? "long" : "short") +
-                              " point to the other end along the outside",
-                          [finish, longest](const Shape& s) {
-                            return length_at(s, outer(s, finish).phi[point(s, finish, longest)]);
-                          }));
+      out.push_back(gauge<Shape>("length_at_" + called(finish) + which, Tool::tape,
+                                 called(finish) + "'s " + (longest ? "long" : "short") +
+                                     " point to the other end along the outside",
+                                 [finish, longest](const Shape& s) {
+                                   return length_at(
+                                       s, outer(s, finish).phi[point(s, finish, longest)]);
+                                 }));
     }
   if (out.size() < kLeast)
-    out.push_back(gauge("throat_to_throat", Tool::tape,
-                        "innermost point of the start to that of the finish, along the tube",
-                        throat_to_throat));
+    out.push_back(gauge<Shape>("throat_to_throat", Tool::tape,
+                               "innermost point of the start to that of the finish, along the tube",
+                               throat_to_throat));
 }
 
-std::vector<Gauge> gauges(const Shape& shape) {
-  std::vector<Gauge> out;
-  out.push_back(gauge("girth", Tool::wrap, "round the outside", girth));
+std::vector<RoundGauge> gauges(const Shape& shape) {
+  std::vector<RoundGauge> out;
+  out.push_back(gauge<Shape>("girth", Tool::wrap, "round the outside", girth));
   add_lengths(out);
   for (const bool finish : {false, true}) add_end(shape, finish, out);
-  out.push_back(gauge("wall", Tool::caliper, "across the wall, square to it",
-                      [](const Shape& s) { return s.wall; }));
+  out.push_back(gauge<Shape>("wall", Tool::caliper, "across the wall, square to it",
+                             [](const Shape& s) { return s.wall; }));
   add_more(shape, out);
   return out;
 }
 
-struct OutlinePoint {
-  double phi, z;
-};
-
-/// Rotates the edge by `by`, after a mirroring if `mirror` is set.
-Edge moved(const Edge& e, bool mirror, double by) {
-  std::vector<OutlinePoint> nodes;
-  for (std::size_t i = 0; i < e.phi.size(); ++i)
-    nodes.push_back({math::whole_turn((mirror ? -e.phi[i] : e.phi[i]) + by), e.z[i]});
-  if (mirror) std::ranges::reverse(nodes);
-  std::ranges::stable_sort(nodes, {}, &OutlinePoint::phi);
-  Edge out;
-  for (const auto& node : nodes) {
-    out.phi.push_back(node.phi);
-    out.z.push_back(node.z);
-  }
-  return out;
-}
-
-void move_end(Shape& s, bool finish, bool mirror, double by) {
-  auto& o = finish ? s.finish_outer : s.start_outer;
-  auto& i = finish ? s.finish_inner : s.start_inner;
-  o = moved(o, mirror, by);
-  i = moved(i, mirror, by);
-}
-
-/// Mirrors `other` at the edge with the root, because B swings the wrong way.
-void swing_wrong(const Edge& root, Edge& other) {
-  for (std::size_t k = 0; k < root.z.size(); ++k) other.z[k] = 2.0 * root.z[k] - other.z[k];
-}
-
-void swing_wrong(Shape& s) {
-  swing_wrong(s.start_root_outer ? s.start_outer : s.start_inner,
-              s.start_root_outer ? s.start_inner : s.start_outer);
-  swing_wrong(s.finish_root_outer ? s.finish_outer : s.finish_inner,
-              s.finish_root_outer ? s.finish_inner : s.finish_outer);
-}
-
-/// Extends the torch lines through a thicker wall.
-void thicken(double factor, const Edge& o, Edge& i) {
-  for (std::size_t k = 0; k < i.z.size(); ++k) i.z[k] = o.z[k] - factor * (o.z[k] - i.z[k]);
-}
-
-void shift_by_slope(double factor, Edge& o, Edge& i) {
-  for (std::size_t k = 0; k < o.z.size(); ++k) {
-    const double shift = factor * (o.z[k] - i.z[k]);
-    o.z[k] += shift;
-    i.z[k] += shift;
-  }
+EndEdges edges(Shape& s, bool finish) {
+  return finish ? EndEdges{&s.finish_outer, &s.finish_inner}
+                : EndEdges{&s.start_outer, &s.start_inner};
 }
 
 /// Returns the part with one mistake; for clocking and mirror, one shape for either end.
 std::vector<Shape> with(Mistake mistake, const Shape& shape) {
   std::vector<Shape> out{shape};
   auto& s = out.front();
+  const std::array ends{edges(s, false), edges(s, true)};
   switch (mistake) {
     case Mistake::diameter:
       s.outer_radius += 0.5 * kDiameterOff;
       break;
-    case Mistake::wall: {
-      const double factor = (s.wall + kWallOff) / s.wall;
-      thicken(factor, s.start_outer, s.start_inner);
-      thicken(factor, s.finish_outer, s.finish_inner);
+    case Mistake::wall:
+      for (const auto& end : ends) thicken((s.wall + kWallOff) / s.wall, end);
       s.wall += kWallOff;
       break;
-    }
     case Mistake::clocking:
     case Mistake::mirror:
       out.push_back(shape);
       for (const bool finish : {false, true})
-        move_end(out[finish ? 1 : 0], finish, mistake == Mistake::mirror,
+        move_end(edges(out[finish ? 1 : 0], finish), mistake == Mistake::mirror,
                  mistake == Mistake::clocking ? kClockingOff : 0.0);
       break;
     case Mistake::b_sign:
-      swing_wrong(s);
+      swing_wrong(ends[0], s.start_root_outer);
+      swing_wrong(ends[1], s.finish_root_outer);
       break;
     case Mistake::pivot_length:
-      shift_by_slope(kPivotOff / s.wall, s.start_outer, s.start_inner);
-      shift_by_slope(kPivotOff / s.wall, s.finish_outer, s.finish_inner);
+      for (const auto& end : ends) shift_by_slope(kPivotOff / s.wall, end);
       break;
+    case Mistake::height:
+    case Mistake::width:
+    case Mistake::swapped:
+    case Mistake::quarter_turn:
+    case Mistake::corner:
+      return {};  // a round tube has no sides
   }
   return out;
-}
-
-bool seen(const Gauge& g, const Shape& good, const Shape& bad) {
-  double off = std::abs(g.read(bad) - g.about.value);
-  if (g.around) off = std::min(off, girth(good) - off);
-  return off > kSeen;
 }
 
 }  // namespace
 
 std::vector<CheckDimension> check_dimensions(const Shape& shape, const std::stop_token& stop) {
-  auto all = gauges(shape);
-  for (auto& g : all) g.about.value = g.read(shape);
-  for (int m = 0; m < kMistakes && !stop.stop_requested(); ++m) {
-    const auto mistake = static_cast<Mistake>(m);
-    const auto bad = with(mistake, shape);
-    for (auto& g : all)
-      if (std::ranges::any_of(bad, [&](const Shape& b) { return seen(g, shape, b); }))
-        g.about.changes_with.push_back(mistake);
-  }
-  std::vector<CheckDimension> out;
-  for (auto& g : all) out.push_back(std::move(g.about));
-  return out;
+  return measured(gauges(shape), shape, kRoundMistakes, with, girth(shape), stop);
 }
 
 }  // namespace tubecut::part

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -16,8 +17,17 @@ enum class Mistake {
   mirror,        // one end is cut mirrored
   b_sign,        // B has the wrong sign; the root's edge stays
   pivot_length,  // the pivot length is 5 mm too long: the cut moves by 5 mm tan B along the tube
+  // Of a tube that is not round:
+  height,        // it is 3 mm higher than the program
+  width,         // it is 3 mm wider
+  swapped,       // it lies on the wrong side: height and width are exchanged
+  quarter_turn,  // one end of a square tube is turned by 90 deg
+  corner,        // the corner radius is 2 mm larger
 };
-inline constexpr int kMistakes = 6;
+/// The mistakes that a round part can have.
+inline constexpr std::array kRoundMistakes{Mistake::diameter, Mistake::wall,
+                                           Mistake::clocking, Mistake::mirror,
+                                           Mistake::b_sign,   Mistake::pivot_length};
 
 enum class Tool { wrap, tape, rule, caliper };
 

@@ -8,6 +8,7 @@
 #include "core/bevel/hole/hole_slice.hpp"
 #include "core/math/polygon.hpp"
 #include "core/math/quadrature.hpp"
+#include "core/part/cut_edges.hpp"
 #include "core/part/place.hpp"
 
 namespace tubecut::part {

@@ -11,6 +11,7 @@
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/math/rotation.hpp"
+#include "core/part/cut_edges.hpp"
 #include "core/part/cutout_webs.hpp"
 #include "core/part/hole_volume.hpp"
 #include "core/part/opening_order.hpp"
@@ -22,28 +23,6 @@ namespace {
 
 using bevel::Table;
 
-void carry(std::vector<Warning> warnings, std::string_view parent, std::vector<Warning>& out) {
-  for (auto& w : under(parent, std::move(warnings))) out.push_back(std::move(w));
-}
-
-/// Returns the length of the root curve without its set-in parts, because those are welded around
-/// their hole.
-double welded_length(const End& end) {
-  const auto& t = end.own;
-  const auto set_in = [&](std::size_t row) {
-    const auto& stated = bevel::stated_joint(end.spec, t.cutter[row]);
-    return stated && stated->kind == joint::JointKind::set_in;
-  };
-  double out = 0.0;
-  bool whole = true;
-  for (std::size_t i = 0; i < t.length.size(); ++i)
-    if (set_in(i))
-      whole = false;
-    else
-      out += (i + 1 < t.length.size() ? t.length[i + 1] : t.length_total) - t.length[i];
-  return whole ? t.length_total : out;
-}
-
 /// Cuts the end in its own frame, rotated so that its phi = 0 is the part's.
 Result<End> cut_end(const PartSpec& spec, bool finish, const std::stop_token& stop) {
   const auto& asked = finish ? spec.finish : spec.start;
@@ -52,7 +31,7 @@ Result<End> cut_end(const PartSpec& spec, bool finish, const std::stop_token& st
   for (auto& partner : out.spec.partners) partner = turned(partner, by);
   TRY(out.own, under(joint::end_name(finish), bevel::table(out.spec, stop)));
   if (!asked.welded) return out;
-  out.weld_length = welded_length(out);
+  out.weld_length = welded_length(out.spec, out.own);
   out.groove_volume = groove_volume(out.spec, out.own, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   return out;
@@ -74,41 +53,10 @@ Result<void> cut_holes(const PartSpec& spec, Part& out, const std::stop_token& s
 Edge outer_edge(const Table& t) { return {t.phi, t.z_outer}; }
 Edge inner_edge(const Table& t) { return {t.phi, t.z_inner}; }
 
-/// Checks that the two cuts of a wall do not meet. Both are straight between their nodes.
-Result<void> check_left(const Part& p, double length, const std::stop_token& stop) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const bool outer : {false, true}) {
-    const auto a = outer ? outer_edge(p.start.table) : inner_edge(p.start.table);
-    const auto b = outer ? outer_edge(p.finish.table) : inner_edge(p.finish.table);
-    for (const auto* nodes : {&a.phi, &b.phi})
-      for (std::size_t i = 0; i < nodes->size() && !stops(stop, i); ++i)
-        least = std::min(least, b.at((*nodes)[i]).low - a.at((*nodes)[i]).high);
-  }
-  if (least > 0.0) return {};
-  return fail({.code = ErrorCode::member_consumed,
-               .member = "target/length",
-               .got = length,
-               .limit = length - least,
-               .unit = "mm",
-               .hint = "the cuts of both ends meet; the limit is where they just touch"});
-}
-
-/// Returns the lowest z of the kerf, a whole kerf beyond the finished edges.
-double lowest_kerf(const Table& t) {
-  double out = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < t.phi.size(); ++i) {
-    const double drop = t.z_outer[i] - t.torch_outer[i];
-    out = std::min({out, t.torch_outer[i] - drop, t.torch_inner[i] - drop});
-  }
-  return out;
-}
-double highest_kerf(const Table& t) {
-  double out = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < t.phi.size(); ++i) {
-    const double rise = t.torch_outer[i] - t.z_outer[i];
-    out = std::max({out, t.torch_outer[i] + rise, t.torch_inner[i] + rise});
-  }
-  return out;
+/// The outside and the bore between the two cuts.
+std::vector<WallEnds> walls_of(const Part& p) {
+  return {{inner_edge(p.start.table), inner_edge(p.finish.table)},
+          {outer_edge(p.start.table), outer_edge(p.finish.table)}};
 }
 
 Lengths lengths(const PartSpec& spec, const Part& p, const std::stop_token& stop) {
@@ -322,7 +270,7 @@ Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
   TRY(cut_holes(spec, out, stop));
   assemble(spec, out, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  TRY(check_left(out, *spec.target.length, stop));
+  TRY(check_left(walls_of(out), *spec.target.length, stop));
   TRY(see_holes(spec, out, out.warnings, stop));
   warn_of_meeting(spec, out, out.warnings, stop);
   TRY(cut_cutouts(spec, out));

@@ -7,48 +7,15 @@
 
 #include "core/bevel/table/table_columns.hpp"
 #include "core/math/rotation.hpp"
-#include "core/part/edge.hpp"
+#include "core/part/reversed_rows.hpp"
 
 namespace tubecut::part {
 namespace {
 
 double other_way(double phi) { return phi == 0.0 ? 0.0 : kTwoPi - phi; }
 
-/// Returns the rows in the order of descending phi, those at phi = 0 first.
-std::vector<std::size_t> reversed(const std::vector<double>& phi) {
-  const auto zeros = static_cast<std::size_t>(std::ranges::count(phi, 0.0));
-  std::vector<std::size_t> out;
-  for (std::size_t i = zeros; i-- > 0;) out.push_back(i);
-  for (std::size_t i = phi.size(); i-- > zeros;) out.push_back(i);
-  return out;
-}
-
-template <class T>
-std::vector<T> picked(const std::vector<T>& column, const std::vector<std::size_t>& order) {
-  std::vector<T> out;
-  if (column.empty()) return out;
-  out.reserve(order.size());
-  for (const auto i : order) out.push_back(column[i]);
-  return out;
-}
-
-std::vector<double> mirrored(const std::vector<double>& column,
-                             const std::vector<std::size_t>& order, double about = 0.0) {
-  auto out = picked(column, order);
-  for (auto& v : out) v = about - v;
-  return out;
-}
-
-std::vector<joint::Event> mirrored(std::vector<joint::Event> events, double length) {
-  for (auto& e : events) {
-    e.phi = other_way(e.phi);
-    std::swap(e.from, e.to);
-    std::swap(e.z_from, e.z_to);
-    e.z_from = length - e.z_from;
-    e.z_to = length - e.z_to;
-  }
-  std::ranges::stable_sort(events, {}, &joint::Event::phi);
-  return events;
+std::size_t rows_at_zero(const std::vector<double>& phi) {
+  return static_cast<std::size_t>(std::ranges::count(phi, 0.0));
 }
 
 /// Returns the phase after which a step comes in the reverse order: that of the next row.
@@ -79,10 +46,10 @@ void mirror_lists(const bevel::Table& in, bevel::Table& out) {
 }  // namespace
 
 bevel::Table seen_from_start(const bevel::Table& in, double length) {
-  const auto order = reversed(in.phi);
+  const auto zeros = rows_at_zero(in.phi);
+  const auto order = reversed_rows(in.phi.size(), zeros);
   bevel::Table out;
   const double rho = in.developed_total / kTwoPi;
-  const auto zeros = static_cast<std::size_t>(std::ranges::count(in.phi, 0.0));
   for (std::size_t k = 0; k < order.size(); ++k) {
     const auto i = order[k];
     out.phi.push_back(other_way(in.phi[i]));
@@ -101,8 +68,10 @@ bevel::Table seen_from_start(const bevel::Table& in, double length) {
     if (kind == plain) to = picked(from, order);
   };
   bevel::each_column(mirror, in, out);
-  out.inner_events = mirrored(in.inner_events, length);
-  out.outer_events = mirrored(in.outer_events, length);
+  out.inner_events = in.inner_events;
+  out.outer_events = in.outer_events;
+  for (auto* events : {&out.inner_events, &out.outer_events})
+    mirror_events(*events, length, &joint::Event::phi, other_way);
   mirror_lists(in, out);
   out.torch_line = in.torch_line;
   out.torch_line.gouge_phi = other_way(math::whole_turn(in.torch_line.gouge_phi));
@@ -113,13 +82,6 @@ bevel::Table seen_from_start(const bevel::Table& in, double length) {
   out.penetration.phi = other_way(in.penetration.phi);
   out.penetration.z = length - in.penetration.z;
   return out;
-}
-
-double lowest(const bevel::Table& t) {
-  return std::min(std::ranges::min(t.z_inner), std::ranges::min(t.z_outer));
-}
-double highest(const bevel::Table& t) {
-  return std::max(std::ranges::max(t.z_inner), std::ranges::max(t.z_outer));
 }
 
 bevel::Table shifted(bevel::Table table, double dz) {

@@ -13,10 +13,6 @@ namespace tubecut::part {
 /// so the rows come in reverse, and every elevation (B, tau, flush) changes its sign.
 [[nodiscard]] bevel::Table seen_from_start(const bevel::Table& finish, double length);
 
-/// Return the smallest and the largest z of an end's cut, over both walls.
-[[nodiscard]] double lowest(const bevel::Table& table);
-[[nodiscard]] double highest(const bevel::Table& table);
-
 /// Moves all z by `dz`.
 [[nodiscard]] bevel::Table shifted(bevel::Table table, double dz);
 [[nodiscard]] bevel::Hole shifted(bevel::Hole hole, double dz);

@@ -1,7 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
@@ -11,6 +10,7 @@
 #include "core/math/rotation.hpp"
 #include "core/part/hole_volume.hpp"
 #include "core/part/part.hpp"
+#include "core/part/worst_checks.hpp"
 
 namespace tubecut::part {
 namespace {
@@ -20,28 +20,6 @@ using math::cylinder_point;
 
 constexpr double kPlaced = 1e-9;  // mm
 constexpr double kVolume = 1e-9;  // relative
-
-/// The worst check of each name, relative to its limit.
-class Worst {
- public:
-  void see(const std::vector<Check>& checks, const std::string& prefix) {
-    for (auto check : checks) {
-      check.name = prefix + check.name;
-      const auto [place, fresh] = places_.emplace(check.name, checks_.size());
-      if (fresh)
-        checks_.push_back(std::move(check));
-      else if (auto& worst = checks_[place->second];
-               !std::isnan(worst.value) &&
-               !(check.value * worst.limit <= worst.value * check.limit))
-        worst = std::move(check);
-    }
-  }
-  std::vector<Check> take() { return std::move(checks_); }
-
- private:
-  std::map<std::string, std::size_t> places_;
-  std::vector<Check> checks_;
-};
 
 /// Transforms from the part's frame to the end's own: a shift, and at the finish half a revolution
 /// about x.
@@ -250,7 +228,7 @@ double dimensions_off(const PartSpec& spec, const Part& p) {
 }  // namespace
 
 std::vector<Check> verify(const PartSpec& spec, const Part& part, const std::stop_token& stop) {
-  Worst all;
+  WorstChecks all;
   all.see(bevel::verify(part.start.spec, part.start.own, stop), "");
   all.see(bevel::verify(part.finish.spec, part.finish.own, stop), "");
   for (std::size_t i = 0; i < part.hole_cuts.size(); ++i)

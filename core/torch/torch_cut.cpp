@@ -7,6 +7,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/table/land_pass.hpp"
+#include "core/part/cut_edges.hpp"
 #include "core/part/place.hpp"
 #include "core/torch/centre_lead.hpp"
 

@@ -43,6 +43,7 @@ const exampleNames: Record<string, string> = {
   'parts/rack-upright': 'A rack upright with staggered slots',
   'parts/perforated-tube': 'A perforated tube',
   'parts/tube-laser-chord': 'A chord cut square by a tube laser',
+  'parts/gate-rail-of-60x40-mitred': 'A gate rail of 60 × 40, mitred',
   'frames/jacket-node-with-set-in-stubs': 'A jacket node with set-in stubs',
   'frames/k-node-with-plate-and-square-brace': 'A K node with a plate and a square brace',
   'frames/roll-cage-of-12': 'A roll cage of 12 members',

@@ -270,7 +270,7 @@ ScheduleRequest decode_schedule_request(Reader& in) {
     case 4:
       out.cut = in.object("part", [](Reader& part) {
         read_inner_common_fields(part);
-        return decode_part_request(part);
+        return decode_part_request(part, Tubes::round);
       });
       break;
     default:

@@ -236,6 +236,29 @@ Development developed(const part::PartSpec& spec, const part::Part& part) {
   return out;
 }
 
+Development developed(const part::SectionPartSpec& spec, const part::SectionPart& part, BoreOn on) {
+  auto out = of_section(spec.section);
+  for (const auto* end : {&part.start, &part.finish}) {
+    auto one = developed(spec.section, end->table, on);
+    const bool finish = end == &part.finish;
+    one.cuts.front().name = joint::end_name(finish);
+    out.cuts.push_back(std::move(one.cuts.front()));
+    if (!(finish ? spec.finish : spec.start).welded) continue;
+    const auto& t = end->table;
+    std::vector<double> scrap;
+    for (std::size_t i = 0; i < t.at.size(); ++i)
+      scrap.push_back(finish ? std::max(t.z_outer[i], t.z_inner[i])
+                             : std::min(t.z_outer[i], t.z_inner[i]));
+    for (auto& span : spans_of(shares(t.at, out.outer_radius), scrap, t.cutter, finish))
+      out.spans.push_back(std::move(span));
+  }
+  for (const auto& mark : part.marks)
+    out.marks.push_back({mark.kind, mark.text, mark.s / out.outer_radius, mark.z_from, mark.z_to});
+  out.whole = true;
+  out.name = spec.name;
+  return out;
+}
+
 std::string tube_size(const Development& d) {
   if (!d.section) return number(2.0 * d.outer_radius, Unit::mm) + " x " + mm(d.wall);
   return number(d.section->height, Unit::mm) + " x " + number(d.section->width, Unit::mm) + " x " +

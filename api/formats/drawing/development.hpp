@@ -10,6 +10,7 @@
 #include "core/joint/intersection.hpp"
 #include "core/joint/section/section_intersection.hpp"
 #include "core/part/part.hpp"
+#include "core/part/section/section_part.hpp"
 #include "core/section/section.hpp"
 
 namespace tubecut::api {
@@ -83,6 +84,10 @@ enum class BoreOn { bore, outside };
 /// A part as it is cut: start, finish, then the holes and the cut-outs in their
 /// order, in the part's frame.
 [[nodiscard]] Development developed(const part::PartSpec& spec, const part::Part& part);
+
+/// A part that is not round.
+[[nodiscard]] Development developed(const part::SectionPartSpec& spec,
+                                    const part::SectionPart& part, BoreOn on);
 
 /// Returns "60.3 x 4 mm", or "100 x 50 x 4 mm, corner radius 8 mm" of a section: height along x
 /// first.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "api/formats/drawing/order_sheets.hpp"
+#include "api/formats/drawing/order/order_sheets.hpp"
 #include "core/part/part.hpp"
 
 namespace tubecut::api {
@@ -25,7 +25,7 @@ void draw_notches(OrderSheets& sheets, const part::PartSpec& spec, const part::P
                   const Caption& caption);
 
 /// Draws the check dimensions, on one sheet if they fit, with the mistakes that change them.
-void draw_checks(OrderSheets& sheets, const part::Part& part);
+void draw_checks(OrderSheets& sheets, const std::vector<part::CheckDimension>& dimensions);
 
 /// What is done to the blank, in its order; several cut-outs of one request are one step.
 [[nodiscard]] std::vector<std::string> step_texts(const part::PartSpec& spec,

@@ -1,14 +1,11 @@
-#include "api/formats/drawing/work_order.hpp"
+#include "api/formats/drawing/order/order_blocks.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
-#include "api/formats/drawing/order_sheets.hpp"
-#include "api/formats/drawing/order_tables.hpp"
-#include "api/formats/drawing/part_development.hpp"
 #include "api/formats/drawing/part_edges.hpp"
-#include "api/formats/drawing/part_view.hpp"
 #include "api/formats/numbers.hpp"
 #include "api/verdict.hpp"
 #include "api/wire/json.hpp"
@@ -17,17 +14,12 @@
 namespace tubecut::api {
 namespace {
 
-constexpr double kLeft = OrderSheets::kLeft, kRight = OrderSheets::kRight,
-                 kWide = OrderSheets::kWide;
+constexpr double kLeft = OrderSheets::kLeft, kWide = OrderSheets::kWide;
 constexpr Stroke kLine{.color = "#7a8794", .width = 0.18};
 constexpr Stroke kBox{.color = "#566370", .width = 0.25};
 constexpr Lettering kHead{.height = 3.2, .bold = true};
 constexpr Lettering kSmall{.height = 2.3};
 constexpr Lettering kGrey{.height = 2.2, .color = "#566370"};
-
-struct Fact {
-  std::string name, value;
-};
 
 /// A small name over a value; without one a line to write on.
 void draw_fact(Canvas& canvas, DrawingPoint at, double width, const Fact& fact) {
@@ -38,7 +30,22 @@ void draw_fact(Canvas& canvas, DrawingPoint at, double width, const Fact& fact) 
     canvas.label({at.x, at.y - 5.6}, fact.value, {.height = 2.7, .bold = true}, width - 2.0);
 }
 
-/// Row by row; a long value takes more columns than one.
+/// Returns the limits that the request accepts, and the distance of its points from the exact
+/// curve.
+std::string accepted(const Caption& caption) {
+  std::string out;
+  const auto* request = caption.request;
+  const auto* accept = request != nullptr ? request->find("accept") : nullptr;
+  if (const auto* limits = accept != nullptr ? accept->as<Json::Object>() : nullptr)
+    for (const auto& [name, value] : *limits)
+      if (const auto* limit = value.as<double>())
+        out += (out.empty() ? "" : "; ") + called(name, Term::field) + " " +
+               measure(*limit, unit_named(name));
+  return out;
+}
+
+}  // namespace
+
 void draw_facts(OrderSheets& sheets, const std::vector<Fact>& facts, std::size_t columns) {
   constexpr double kRow = 7.4;
   const double width = kWide / static_cast<double>(columns);
@@ -82,34 +89,22 @@ std::vector<Fact> order_facts(const Caption& caption) {
   return out;
 }
 
-std::vector<Fact> part_facts(const part::PartSpec& spec, const part::Part& part) {
-  const auto& target = spec.target;
-  const auto& l = part.lengths;
-  return {{"tube", number(2.0 * target.outer_radius, Unit::mm) + " x " + mm(target.wall)},
-          {"blank, with kerfs, clamping, facing", mm(l.blank)},
-          {"tip to tip", mm(l.longest)},
-          {"throat to throat", mm(l.shortest)},
-          {"finish turned against start", degrees(part.clocking)},
-          {"between work points", mm(l.work_point)},
-          {"weld", mm(l.weld)},
-          {"mass", measure(l.mass, Unit::kg)}};
+std::string name_of_part(const std::string& name, const Caption& caption) {
+  for (const auto& [key, text] : caption.reference)
+    if (key == "part") return text;
+  return name.empty() ? "Part" : name;
 }
 
-/// "B from -12° to 44°; the torch leans from -80° to 80°."
-std::string bevel_range(const part::PartSpec& spec, const part::Part& part) {
+std::string bevel_range(const std::vector<const std::vector<double>*>& cuts,
+                        const bevel::TorchRange& torch) {
   double low = 0.0, high = 0.0;
   bool any = false;
-  const auto take = [&](const std::vector<double>& all) {
-    for (const double b : all) {
+  for (const auto* all : cuts)
+    for (const double b : *all) {
       low = any ? std::min(low, b) : b;
       high = any ? std::max(high, b) : b;
       any = true;
     }
-  };
-  take(part.start.table.b);
-  take(part.finish.table.b);
-  for (const auto& placed : part.holes) take(placed.hole.b);
-  const auto& torch = spec.start.cut.torch;
   const auto range = degrees(low) == degrees(high)
                          ? "Bevel B " + degrees(low) + " throughout"
                          : "Bevel B from " + degrees(low) + " to " + degrees(high);
@@ -117,8 +112,7 @@ std::string bevel_range(const part::PartSpec& spec, const part::Part& part) {
          degrees(torch.max.rad()) + ". B above 0: the outer edge lies further towards the finish.";
 }
 
-void draw_verdict(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
-                  const Caption& caption) {
+void draw_verdict(OrderSheets& sheets, const std::string& bevels, const Caption& caption) {
   constexpr double kRow = 3.3;
   auto loud = kSmall;
   if (caption.verdict.status != "ok")
@@ -131,50 +125,26 @@ void draw_verdict(OrderSheets& sheets, const part::PartSpec& spec, const part::P
   for (const auto& line :
        verdict_lines(caption.verdict, {.width = 125, .warnings = 8, .plain = true}))
     add(line, loud);
-  add(bevel_range(spec, part), kSmall);
+  add(bevels, kSmall);
   double y = sheets.take(kRow * static_cast<double>(lines.size()) + 2.0) - 0.4;
   for (const auto& [line, l] : lines) sheets.canvas().text({kLeft, y -= kRow}, line, l);
 }
 
-/// Draws the view in the height that remains on the sheet.
-void draw_view(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
-               double others) {
-  constexpr double kLeast = 50.0, kMost = 92.0;
-  const double tall = std::clamp(sheets.left() - others, kLeast, kMost);
-  const double top = sheets.take(tall);
-  auto& canvas = sheets.canvas();
-  draw_part_view(canvas, spec, part, {{kLeft, top - tall + 3.0}, {kRight, top - 2.0}});
-  canvas.text({kLeft, top - tall + 1.6},
-              "phi counts from the datum line, clockwise as seen from the start", kGrey);
-}
-
-/// Of sheet 1 below the view, where there is one strip.
-double height_below(const DevelopmentPlan& plan, const part::PartSpec& spec,
-                    const part::Part& part) {
-  const auto count = [](std::size_t n) { return static_cast<double>(n); };
-  const std::size_t partners = part.start.spec.partners.size() + part.finish.spec.partners.size();
-  return plan.height() + 6.0 + 4.0 * std::ceil(count(partners) / 4.0) +
-         (part.holes.empty() ? 0.0 : 10.0 + 6.4 * count(part.holes.size())) +
-         (part.cutouts.empty() ? 0.0 : 10.0 + 6.4 * count(spec.cutouts.all.size())) + 12.0 +
-         4.4 * std::ceil(count(step_texts(spec, part).size()) / 2.0);
-}
-
 /// Draws the legend of the two cuts' colours, two lines of a sheet.
-void draw_partners(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,
+void draw_partners(OrderSheets& sheets, const EndPartners& start, const EndPartners& finish,
                    const Caption& caption) {
   constexpr std::size_t kColumns = 4;
   constexpr double kRow = 4.0;
   std::vector<std::pair<std::string_view, std::string>> all;
-  const auto add = [&](const part::End& end, bool welded, const std::vector<std::string>& names,
+  const auto add = [&](const EndPartners& end, const std::vector<std::string>& names,
                        const std::string& which, std::size_t first) {
-    if (!welded) return all.emplace_back("none", which + ": cut square"), void();
-    for (std::size_t i = 0; i < end.spec.partners.size(); ++i)
+    if (!end.welded) return all.emplace_back("none", which + ": cut square"), void();
+    for (std::size_t i = 0; i < end.count; ++i)
       all.emplace_back(partner_color(first + i),
                        which + " by " + (i < names.size() ? names[i] : std::to_string(i + 1)));
   };
-  add(part.start, spec.start.welded, caption.partners, "start", 0);
-  add(part.finish, spec.finish.welded, caption.finish_partners, "finish",
-      part.start.spec.partners.size());
+  add(start, caption.partners, "start", 0);
+  add(finish, caption.finish_partners, "finish", start.count);
   const std::size_t rows = (all.size() + kColumns - 1) / kColumns;
   const double top = sheets.take(kRow * static_cast<double>(rows) + 2.0), width = kWide / kColumns;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -186,24 +156,9 @@ void draw_partners(OrderSheets& sheets, const part::PartSpec& spec, const part::
   }
 }
 
-/// Returns the limits that the request accepts, and the distance of its points from the exact
-/// curve.
-std::string accepted(const Caption& caption) {
-  std::string out;
-  const auto* request = caption.request;
-  const auto* accept = request != nullptr ? request->find("accept") : nullptr;
-  if (const auto* limits = accept != nullptr ? accept->as<Json::Object>() : nullptr)
-    for (const auto& [name, value] : *limits)
-      if (const auto* limit = value.as<double>())
-        out += (out.empty() ? "" : "; ") + called(name, Term::field) + " " +
-               measure(*limit, unit_named(name));
-  return out;
-}
-
-void draw_sign_off(OrderSheets& sheets, const part::PartSpec& spec, const Caption& caption) {
+void draw_sign_off(OrderSheets& sheets, const joint::Sampling& sampling, const Caption& caption) {
   constexpr double kBoxes = 14.0, kRow = 3.3;
   const auto limits = accepted(caption);
-  const auto& sampling = spec.start.cut.sampling;
   std::string line = limits.empty() ? "The request states no limits; general tolerance as agreed: "
                                       "................"
                                     : "As the request accepts: " + limits + ".";
@@ -224,40 +179,6 @@ void draw_sign_off(OrderSheets& sheets, const part::PartSpec& spec, const Captio
     canvas.text({x + 1.5, top - tall + kBoxes}, kSigned[static_cast<std::size_t>(i)], kGrey);
     if (i < 3) canvas.text({x + 0.62 * width, top - tall + kBoxes}, "on", kGrey);
   }
-}
-
-std::string name_of_part(const part::PartSpec& spec, const Caption& caption) {
-  for (const auto& [name, text] : caption.reference)
-    if (name == "part") return text;
-  return spec.name.empty() ? "Part" : spec.name;
-}
-
-}  // namespace
-
-std::vector<Canvas> work_order(const part::PartSpec& spec, const part::Part& part,
-                               const Caption& caption) {
-  OrderSheets sheets("Work order", name_of_part(spec, caption), caption);
-  draw_facts(sheets, order_facts(caption), 4);
-  draw_members(sheets, caption);
-  rule(sheets);
-  draw_facts(sheets, part_facts(spec, part), 4);
-  rule(sheets);
-  draw_verdict(sheets, spec, part, caption);
-  rule(sheets);
-  const auto plan = plan_development(spec, part, kWide);
-  draw_view(sheets, spec, part, height_below(plan, spec, part));
-  for (std::size_t i = 0; i < plan.strips.size(); ++i) {
-    const double top = sheets.take(plan.height());
-    draw_strip(sheets.canvas(), plan, i, spec, part, {kLeft, top});
-  }
-  draw_partners(sheets, spec, part, caption);
-  draw_holes(sheets, spec, part);
-  draw_cutouts(sheets, spec, part);
-  draw_steps(sheets, spec, part);
-  draw_notches(sheets, spec, part, caption);
-  draw_checks(sheets, part);
-  draw_sign_off(sheets, spec, caption);
-  return sheets.finished();
 }
 
 }  // namespace tubecut::api

@@ -1,4 +1,4 @@
-#include "api/formats/drawing/order_tables.hpp"
+#include "api/formats/drawing/order/order_tables.hpp"
 
 #include <algorithm>
 #include <set>
@@ -257,6 +257,16 @@ std::string said(part::Mistake mistake) {
       return "B the wrong way";
     case part::Mistake::pivot_length:
       return "pivot length off";
+    case part::Mistake::height:
+      return "another height";
+    case part::Mistake::width:
+      return "another width";
+    case part::Mistake::swapped:
+      return "on the wrong side";
+    case part::Mistake::quarter_turn:
+      return "an end turned by 90°";
+    case part::Mistake::corner:
+      return "another corner radius";
   }
   return {};
 }
@@ -269,15 +279,15 @@ std::string joined(const std::vector<part::Mistake>& mistakes) {
 
 }  // namespace
 
-void draw_checks(OrderSheets& sheets, const part::Part& part) {
+void draw_checks(OrderSheets& sheets, const std::vector<part::CheckDimension>& dimensions) {
   constexpr double kRow = 7.6, kMore = 3.0, kWithin = 158.0, kMistakes = 63.0;
   draw_head(sheets, "Check dimensions, in mm",
             {{0.0, "dimension, and its datum"},
              {88.0, "by"},
              {100.0, "changes with"},
              {162.0, "measured"}},
-            kRow * static_cast<double>(part.check_dimensions.size()) + 3.0 * kMore);
-  for (const auto& d : part.check_dimensions) {
+            kRow * static_cast<double>(dimensions.size()) + 3.0 * kMore);
+  for (const auto& d : dimensions) {
     const auto from = wrapped(in_plain_words(d.measured_from), kGrey.height, kWithin);
     const auto mistakes = joined(d.changes_with);
     // Many of them take a line of their own below their column's head.

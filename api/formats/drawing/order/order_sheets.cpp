@@ -1,4 +1,4 @@
-#include "api/formats/drawing/order_sheets.hpp"
+#include "api/formats/drawing/order/order_sheets.hpp"
 
 #include <utility>
 

@@ -1,0 +1,230 @@
+#include "api/formats/drawing/order/section_work_order.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "api/formats/drawing/order/order_blocks.hpp"
+#include "api/formats/drawing/order/order_sheets.hpp"
+#include "api/formats/drawing/order/order_tables.hpp"
+#include "api/formats/numbers.hpp"
+#include "core/base/angle.hpp"
+
+namespace tubecut::api {
+namespace {
+
+constexpr double kLeft = OrderSheets::kLeft, kWide = OrderSheets::kWide;
+constexpr Lettering kHead{.height = 3.2, .bold = true};
+constexpr Lettering kSmall{.height = 2.3};
+constexpr Lettering kGrey{.height = 2.2, .color = "#566370"};
+constexpr Stroke kEdge{.color = "#1d242b", .width = 0.4};
+constexpr Stroke kSide{.color = "#566370", .width = 0.2};
+constexpr Stroke kMiddle{.color = "#566370", .width = 0.15, .dashes = "4 1 1 1"};
+
+std::string angle_of(const part::FaceCut& cut) { return cut.angle ? degrees(*cut.angle) : "-"; }
+
+std::vector<Fact> facts_of(const part::SectionPartSpec& spec, const part::SectionPart& part) {
+  const auto& s = spec.section;
+  const auto& l = part.lengths;
+  return {
+      {"tube", number(s.height, Unit::mm) + " x " + number(s.width, Unit::mm) + " x " + mm(s.wall)},
+      {"corner radius, outside", mm(s.corner)},
+      {"blank, with kerfs, clamping, facing", mm(l.blank)},
+      {"tip to tip", mm(l.longest)},
+      {"throat to throat", mm(l.shortest)},
+      {"between work points", mm(l.work_point)},
+      {"weld", mm(l.weld)},
+      {"mass", measure(l.mass, Unit::kg)}};
+}
+
+/// The four faces, one above the other, each as seen from outside: z to the right, the girth
+/// downwards. A length in the middle that no cut reaches is left out, with a break.
+class Faces {
+ public:
+  Faces(const part::SectionPartSpec& spec, const part::SectionPart& part)
+      : part_(part),
+        outer_(spec.section.outer()),
+        start_(part::edge_over_girth(part.start.table, part.start.table.z_outer)),
+        finish_(part::edge_over_girth(part.finish.table, part.finish.table.z_outer)) {
+    start_high_ = start_.highest();
+    finish_low_ = finish_.lowest();
+    low_ = std::min(0.0, start_.lowest());
+    high_ = finish_.highest();
+    const double sides = 2.0 * (spec.section.height + spec.section.width);
+    const double ends = (start_high_ - low_) + (high_ - finish_low_);
+    scale_ = std::min({1.0, kTall / sides, (kRoom - kPlain) / std::max(1.0, ends)});
+    const double plain = std::max(0.0, finish_low_ - start_high_) * scale_;
+    left_out_ = std::max(0.0, plain - (kRoom - ends * scale_)) / scale_;
+  }
+
+  [[nodiscard]] double height() const {
+    double out = 0.0;
+    for (int face = 1; face <= 4; ++face) out += side(face) * scale_ + kBetween;
+    return out + 2.0;
+  }
+
+  void draw(Canvas& canvas, double top) const {
+    for (int face = 1; face <= 4; ++face) {
+      draw_face(canvas, face, top);
+      top -= side(face) * scale_ + kBetween;
+    }
+  }
+
+ private:
+  static constexpr double kTall = 74.0, kRoom = 150.0, kPlain = 60.0, kBetween = 7.4,  // mm
+      kClear = 16.0;  // of a text from the break
+  static constexpr int kPlaces = 80;
+
+  [[nodiscard]] double side(int face) const { return 2.0 * outer_.face_distance(face % 4 + 1); }
+  [[nodiscard]] double x(double z) const {
+    const double middle = 0.5 * (start_high_ + finish_low_);
+    return kLeft + 17.0 + (z - low_ - (z > middle ? left_out_ : 0.0)) * scale_;
+  }
+  [[nodiscard]] double edge(bool finish, double s) const {
+    const auto span = (finish ? finish_ : start_).at(s / outer_.girth() * kTwoPi);
+    return finish ? span.low : span.high;
+  }
+
+  /// The cut as this face shows it: over the face and both of its corners.
+  [[nodiscard]] std::vector<DrawingPoint> cut(int face, bool finish, double middle) const {
+    const auto normal = section::Curve::face_normal(face);
+    const Eigen::Vector2d round(-normal.y(), normal.x());
+    const double half = outer_.half_flat(face) + 0.5 * kPi * outer_.corner();
+    std::vector<DrawingPoint> out;
+    for (int i = 0; i <= kPlaces; ++i) {
+      const double s = outer_.on_face(face, 0.0) + half * (2.0 * i / kPlaces - 1.0);
+      const double v = outer_.at(s).point.dot(round);
+      out.push_back({x(edge(finish, s)), middle - v * scale_});
+    }
+    return out;
+  }
+
+  void draw_face(Canvas& canvas, int face, double top) const {
+    const double half = 0.5 * side(face) * scale_, middle = top - half;
+    const auto id = "face_" + std::to_string(face);
+    const auto start = cut(face, false, middle), finish = cut(face, true, middle);
+    canvas.polyline(start, kEdge, id + "_start");
+    canvas.polyline(finish, kEdge, id + "_finish");
+    const double z = 0.5 * (start_high_ + finish_low_);
+    const double gap = left_out_ > 0.0 ? 1.2 : 0.0, broken = x(z);
+    for (const auto& [from, to] :
+         {std::pair{start.front(), finish.front()}, std::pair{start.back(), finish.back()}}) {
+      canvas.line(from, {broken - gap, from.y}, kSide);
+      canvas.line({broken + gap, to.y}, to, kSide);
+    }
+    if (gap > 0.0)
+      for (const double side : {-gap, gap})
+        canvas.polyline({{broken + side - 0.8, middle - half - 1.0},
+                         {broken + side + 0.8, middle + half + 1.0}},
+                        kSide);
+    const auto at = static_cast<std::size_t>(face - 1);
+    const auto& s = part_.start.faces[at];
+    const auto& f = part_.finish.faces[at];
+    canvas.line({x(s.z), middle}, {x(f.z), middle}, kMiddle);
+    canvas.text({kLeft, middle - 1.0}, "face " + std::to_string(face), kSmall);
+    canvas.text({kLeft, middle - 4.0}, "cut " + angle_of(s), kGrey);
+    auto length = kHead;
+    length.anchor = Anchor::middle;
+    length.height = 2.8;
+    const double text = broken - (left_out_ > 0.0 ? kClear : 0.0);
+    canvas.text({text, middle + 0.8}, mm(part_.faces[at].length), length);
+    canvas.text({x(high_) + 2.0, middle - 1.0}, "cut " + angle_of(f), kGrey);
+    // The corner after this face lies below it.
+    auto corner = kGrey;
+    corner.anchor = Anchor::middle;
+    canvas.text({text, middle - half - 4.2},
+                "corner " + std::to_string(face) + ": " + mm(part_.faces[at].corner), corner);
+  }
+
+  const part::SectionPart& part_;
+  section::Curve outer_;
+  part::Edge start_, finish_;
+  double start_high_ = 0.0, finish_low_ = 0.0, low_ = 0.0, high_ = 0.0;
+  double scale_ = 1.0, left_out_ = 0.0;
+};
+
+void draw_faces(OrderSheets& sheets, const part::SectionPartSpec& spec,
+                const part::SectionPart& part) {
+  const Faces faces(spec, part);
+  const double tall = faces.height() + 13.0;
+  const double top = sheets.take(tall);
+  auto& canvas = sheets.canvas();
+  canvas.text({kLeft, top - 5.0}, "Faces, each as seen from outside, start at the left", kHead);
+  canvas.text(
+      {kLeft, top - 8.6},
+      "Lengths along the middle of a face and of the corner below it. Cut: against a square "
+      "across the face, above 0 where the end rises downwards on this view.",
+      kGrey);
+  faces.draw(canvas, top - 11.5);
+}
+
+/// The operations on the blank, in their order.
+void draw_section_steps(OrderSheets& sheets, const part::SectionPart& part) {
+  std::vector<std::string> steps;
+  for (const auto& step : part.sequence) {
+    if (step.what == part::Step::What::mark) {
+      const auto& mark = part.marks[step.index];
+      const bool line = mark.kind == part::Mark::Kind::datum_line;
+      steps.push_back(line ? "scribe the datum line on the middle of face 1"
+                           : "mark " + mark.text + " on the middle of face 1, " + mm(mark.z_from) +
+                                 " from the start's long point");
+    } else {
+      steps.push_back(step.what == part::Step::What::finish
+                          ? "cut the finish"
+                          : "cut the start, which parts the piece from the clamped rest");
+    }
+  }
+  constexpr double kRow = 4.4;
+  const double top = sheets.take(7.0 + kRow * static_cast<double>(steps.size()));
+  auto& canvas = sheets.canvas();
+  canvas.text({kLeft, top - 5.0}, "Steps", kHead);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    canvas.label({kLeft, top - 5.0 - kRow * static_cast<double>(i + 1)},
+                 std::to_string(i + 1) + "  " + steps[i], kSmall, kWide);
+}
+
+/// The saw's settings, if an end is one plane.
+void draw_saw(OrderSheets& sheets, const part::SectionPart& part) {
+  for (const auto* end : {&part.start, &part.finish}) {
+    if (std::ranges::none_of(end->faces, [](const auto& f) { return f.tilt.has_value(); }))
+      continue;
+    std::string text =
+        std::string(end == &part.start ? "start" : "finish") + " sawn in one cut, this face down: ";
+    bool first = true;
+    for (int face = 1; face <= 4; ++face) {
+      const auto& cut = end->faces[static_cast<std::size_t>(face - 1)];
+      if (!cut.tilt) continue;
+      text += (first ? "" : "; ") + std::string("face ") + std::to_string(face) + " gauge " +
+              angle_of(cut) + " tilt " + degrees(*cut.tilt);
+      first = false;
+    }
+    sheets.canvas().label({kLeft, sheets.take(3.6) - 2.8}, text, kSmall, kWide);
+  }
+}
+
+}  // namespace
+
+std::vector<Canvas> section_work_order(const part::SectionPartSpec& spec,
+                                       const part::SectionPart& part, const Caption& caption) {
+  OrderSheets sheets("Work order", name_of_part(spec.name, caption), caption);
+  draw_facts(sheets, order_facts(caption), 4);
+  draw_members(sheets, caption);
+  rule(sheets);
+  draw_facts(sheets, facts_of(spec, part), 4);
+  rule(sheets);
+  draw_verdict(sheets,
+               bevel_range({&part.start.table.b, &part.finish.table.b}, spec.start.cut.torch),
+               caption);
+  rule(sheets);
+  draw_faces(sheets, spec, part);
+  draw_saw(sheets, part);
+  draw_partners(sheets, {part.start.spec.partners.size(), spec.start.welded},
+                {part.finish.spec.partners.size(), spec.finish.welded}, caption);
+  draw_section_steps(sheets, part);
+  draw_checks(sheets, part.check_dimensions);
+  draw_sign_off(sheets, spec.start.cut.sampling, caption);
+  return sheets.finished();
+}
+
+}  // namespace tubecut::api

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/wire/format.hpp"
+
+namespace tubecut::api {
+
+// The lines that DSTV files of all tubes have.
+
+struct DstvLengths {
+  double low = 0.0;  // z of x = 0
+  double over_long = 0.0, over_short = 0.0, work_point = 0.0;
+  double saw = 0.0;      // from the start of the torch line
+  bool assumed = false;  // nobody gave the far end
+};
+
+struct DstvProfile {
+  std::string name, code;
+  double height = 0.0, width = 0.0, wall = 0.0, radius = 0.0;  // mm
+  double kg_per_m = 0.0;
+  double girth = 0.0;  // mm
+};
+
+[[nodiscard]] std::string dstv_field(double value, int digits = 3);
+[[nodiscard]] std::string dstv_comment(const std::string& text);
+/// The comments at the top; `frame` says how x, y and the faces lie.
+[[nodiscard]] std::string dstv_comments(const DstvLengths& lengths,
+                                        const std::vector<std::string>& frame, bool constant,
+                                        const Caption& caption);
+/// `name`: name of the piece if the reference has no name.
+[[nodiscard]] std::string dstv_header(const DstvProfile& profile, const DstvLengths& lengths,
+                                      const Caption& caption, std::string_view name = {});
+/// Returns a point of a contour; face and reference edge "u" only for the first of the block.
+[[nodiscard]] std::string dstv_point(std::string_view face, double x, double y, double bevel,
+                                     bool first);
+/// Returns the bevel in degrees if the whole cut has the same.
+[[nodiscard]] std::optional<double> one_bevel(const std::vector<double>& b);
+
+}  // namespace tubecut::api

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/bevel/table/table.hpp"
+#include "core/joint/joint.hpp"
+#include "core/part/edge.hpp"
+
+/// The two edges of a cut end as parts of a part, of a round tube's table or of a section's.
+namespace tubecut::part {
+
+/// Return the smallest and the largest z of an end's cut, over both walls.
+template <class Table>
+[[nodiscard]] double lowest(const Table& t) {
+  return std::min(std::ranges::min(t.z_inner), std::ranges::min(t.z_outer));
+}
+template <class Table>
+[[nodiscard]] double highest(const Table& t) {
+  return std::max(std::ranges::max(t.z_inner), std::ranges::max(t.z_outer));
+}
+
+/// Return the lowest and the highest z of the kerf, a whole kerf beyond the finished edges.
+template <class Table>
+[[nodiscard]] double lowest_kerf(const Table& t) {
+  double out = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < t.z_outer.size(); ++i) {
+    const double drop = t.z_outer[i] - t.torch_outer[i];
+    out = std::min({out, t.torch_outer[i] - drop, t.torch_inner[i] - drop});
+  }
+  return out;
+}
+template <class Table>
+[[nodiscard]] double highest_kerf(const Table& t) {
+  double out = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < t.z_outer.size(); ++i) {
+    const double rise = t.torch_outer[i] - t.z_outer[i];
+    out = std::max({out, t.torch_outer[i] + rise, t.torch_inner[i] + rise});
+  }
+  return out;
+}
+
+/// Returns the length of the root curve without its set-in parts, because those are welded around
+/// their hole.
+template <class Table>
+[[nodiscard]] double welded_length(const bevel::TableSpec& spec, const Table& t) {
+  const auto set_in = [&](std::size_t row) {
+    const auto& stated = bevel::stated_joint(spec, t.cutter[row]);
+    return stated && stated->kind == joint::JointKind::set_in;
+  };
+  double out = 0.0;
+  bool whole = true;
+  for (std::size_t i = 0; i < t.length.size(); ++i)
+    if (set_in(i))
+      whole = false;
+    else
+      out += (i + 1 < t.length.size() ? t.length[i + 1] : t.length_total) - t.length[i];
+  return whole ? t.length_total : out;
+}
+
+/// One wall of a part: where the start's cut ends it, and the finish's.
+struct WallEnds {
+  Edge start, finish;
+};
+
+/// Checks that the two cuts of a wall do not meet. Both are straight between their nodes.
+/// Errors  member_consumed (target/length).
+[[nodiscard]] Result<void> check_left(const std::vector<WallEnds>& walls, double length,
+                                      const std::stop_token& stop);
+
+/// Adds warnings under a path.
+void carry(std::vector<Warning> warnings, std::string_view parent, std::vector<Warning>& out);
+
+}  // namespace tubecut::part

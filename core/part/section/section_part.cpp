@@ -1,0 +1,164 @@
+#include "core/part/section/section_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/angle.hpp"
+#include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
+#include "core/part/cut_edges.hpp"
+#include "core/part/place.hpp"
+
+namespace tubecut::part {
+namespace {
+
+using bevel::SectionTable;
+
+Edge outer_edge(const SectionTable& t) { return edge_over_girth(t, t.z_outer); }
+Edge inner_edge(const SectionTable& t) { return edge_over_girth(t, t.z_inner); }
+
+/// Cuts the end in its own frame.
+Result<SectionEnd> cut_end(const SectionPartSpec& spec, bool finish, const std::stop_token& stop) {
+  const auto& asked = finish ? spec.finish : spec.start;
+  SectionEnd out{.spec = asked.cut};
+  out.spec.target.length = spec.length;
+  TRY(out.own, under(joint::end_name(finish), bevel::section_table(spec.section, out.spec, stop)));
+  if (!asked.welded) return out;
+  out.weld_length = welded_length(out.spec, out.own);
+  out.groove_volume = groove_volume(section::Wall(spec.section), out.spec, out.own, stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  return out;
+}
+
+/// Returns the end's plane, if one plane alone cuts it.
+const joint::PlaneCutter* only_plane(const bevel::TableSpec& spec) {
+  return spec.partners.size() == 1 ? std::get_if<joint::PlaneCutter>(&spec.partners.front())
+                                   : nullptr;
+}
+
+/// Measures the end on the middle of each face and corner, and across each face.
+void measure_faces(const section::Curve& outer, bool finish, SectionEnd& end) {
+  const auto edge = outer_edge(end.table);
+  const double girth = outer.girth();
+  // At a jump the part ends where it is shorter.
+  const auto z = [&](double s) {
+    const auto span = edge.at(s / girth * kTwoPi);
+    return finish ? span.low : span.high;
+  };
+  const auto* plane = only_plane(end.spec);
+  for (int face = 1; face <= 4; ++face) {
+    auto& cut = end.faces[static_cast<std::size_t>(face - 1)];
+    const double half = outer.half_flat(face);
+    cut.z = z(outer.on_face(face, 0.0));
+    end.corners[static_cast<std::size_t>(face - 1)] = z(outer.on_corner(face, 0.25 * kPi));
+    if (half <= 0.0) continue;
+    const double middle = outer.on_face(face, 0.0);
+    cut.angle = elementary::atan2(z(middle + half) - z(middle - half), 2.0 * half);
+    if (plane == nullptr) continue;
+    Eigen::Vector2d n = section::Curve::face_normal(face);
+    const Eigen::Vector3d up = plane->normal.normalized() * (plane->normal.z() < 0.0 ? -1.0 : 1.0);
+    if (finish) n.y() = -n.y();  // of the end's own frame
+    cut.tilt = elementary::asin(std::clamp(up.head<2>().dot(n), -1.0, 1.0));
+  }
+}
+
+GirthPoint girth_point(const SectionTable& t, bool upwards) {
+  const auto i = outer_edge(t).extreme(upwards);
+  return {t.at[i].s, t.z_outer[i]};
+}
+
+std::vector<SectionMark> marks(const SectionPartSpec& spec, const SectionPart& p) {
+  const double from = p.start.faces[0].z, to = p.finish.faces[0].z;
+  std::vector<SectionMark> out{{Mark::Kind::datum_line, "0", 0.0, from, to}};
+  if (!spec.name.empty()) {
+    const double middle = 0.5 * (from + to);
+    out.push_back({Mark::Kind::part_mark, spec.name, 0.0, middle, middle});
+  }
+  return out;
+}
+
+std::vector<Step> sequence_of(const SectionPart& p) {
+  std::vector<Step> out;
+  for (std::size_t i = 0; i < p.marks.size(); ++i)
+    out.push_back({Step::What::mark, i, p.marks[i].z_from, p.marks[i].z_to});
+  const auto end = [&](Step::What what, const SectionTable& t) {
+    out.push_back({what, 0, lowest(t), highest(t)});
+  };
+  end(Step::What::finish, p.finish.table);
+  end(Step::What::start, p.start.table);
+  return out;
+}
+
+Lengths lengths(const SectionPartSpec& spec, const SectionPart& p) {
+  const section::Wall wall(spec.section);
+  const auto& s = p.start.table;
+  const auto& f = p.finish.table;
+  Lengths out;
+  out.work_point = spec.length;
+  out.longest = highest(f) - lowest(s);
+  out.shortest = lowest(f) - highest(s);
+  out.blank = highest_kerf(f) - lowest_kerf(s) + spec.clamping + spec.facing;
+  out.weld = p.start.weld_length + p.finish.weld_length;
+  out.volume = end_volume(wall, p.finish.spec, f) - end_volume(wall, p.start.spec, s);
+  out.mass = out.volume * 1e-9 * spec.density;
+  return out;
+}
+
+SectionShape shape_of(const SectionPartSpec& spec, const SectionPart& p) {
+  const auto outer = [](const SectionEnd& e) {
+    return e.spec.root_surface == bevel::RootSurface::outer;
+  };
+  return {.section = spec.section,
+          .start_outer = outer_edge(p.start.table),
+          .start_inner = inner_edge(p.start.table),
+          .finish_outer = outer_edge(p.finish.table),
+          .finish_inner = inner_edge(p.finish.table),
+          .start_root_outer = outer(p.start),
+          .finish_root_outer = outer(p.finish)};
+}
+
+/// Places both ends in the part's frame.
+void assemble(const SectionPartSpec& spec, SectionPart& out) {
+  const section::Wall wall(spec.section);
+  const double dz = -lowest(out.start.own);
+  out.frame = spec.start_frame;
+  out.frame.origin -= dz * spec.start_frame.rows.row(2).transpose();
+  out.start.table = shifted(out.start.own, dz);
+  out.finish.table = shifted(seen_from_start(wall, out.finish.own, spec.length), dz);
+  for (auto* end : {&out.start, &out.finish}) {
+    const bool finish = end == &out.finish;
+    end->longest = girth_point(end->table, finish);
+    end->shortest = girth_point(end->table, !finish);
+    measure_faces(wall.outer(), finish, *end);
+  }
+  for (std::size_t i = 0; i < out.faces.size(); ++i)
+    out.faces[i] = {out.finish.faces[i].z - out.start.faces[i].z,
+                    out.finish.corners[i] - out.start.corners[i]};
+  out.marks = marks(spec, out);
+  out.sequence = sequence_of(out);
+}
+
+}  // namespace
+
+Result<SectionPart> section_part(const SectionPartSpec& spec, const std::stop_token& stop) {
+  SectionPart out;
+  for (const bool finish : {false, true}) {
+    TRY(auto end, cut_end(spec, finish, stop));
+    // A plane square to the axis has no relevant warnings.
+    if ((finish ? spec.finish : spec.start).welded)
+      carry(end.own.warnings, joint::end_name(finish), out.warnings);
+    (finish ? out.finish : out.start) = std::move(end);
+  }
+  assemble(spec, out);
+  const auto &s = out.start.table, &f = out.finish.table;
+  TRY(check_left({{inner_edge(s), inner_edge(f)}, {outer_edge(s), outer_edge(f)}}, spec.length,
+                 stop));
+  out.clocking = clocking_between(spec.start.cut.partners, spec.finish.cut.partners);
+  out.lengths = lengths(spec, out);
+  out.check_dimensions = check_dimensions(shape_of(spec, out), stop);
+  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  return out;
+}
+
+}  // namespace tubecut::part
