@@ -6,6 +6,7 @@ import random
 import re
 import xml.etree.ElementTree as xml
 
+from dstv_test import parse, rows_of
 from dxf_test import length, polylines, read
 from service import FormatTest, drawing_seed, main
 from stl_test import admesh, area, facets
@@ -184,11 +185,88 @@ class SectionFiles(FormatTest):
                     self.service.text("intersections", curves, query)
         self.assertGreater(jumps, 0, "no partner is lost in a jump")
 
+    def drawn_part(self):
+        """A part flush with a plane at either end, its lengths, and the height of each plane over a place, in the part's frame."""
+        start, lengths, (z_0, a, b) = cut_by_plane(self.rng)
+        finish = cut_by_plane(self.rng)[0] | {"cutters": [{"kind": "plane", "point_mm": [0, 0, 50], "normal": [0.4, -0.3, 1]}]}
+        end = ("cutters", "root_surface", "contact", "groove", "smoothing")
+        body = {"target": start["target"] | {"length_mm": 800, "id": "rail <1>"}, "kerf_mm": 0, "sampling": {"tolerance_mm": 0.01},
+                "torch": start["torch"], "ends": {name: {k: one[k] for k in end} for name, one in (("start", start), ("finish", finish))}}
+        answer = self.service.answer("parts", body)["result"]
+        long_point = answer["frame"]["origin_mm"][2]
+        return body, lengths, answer, (lambda x, y: z_0 - a * x - b * y - long_point, lambda x, y: 800 - 50 + 0.4 * x + 0.3 * y - long_point)
+
+    def test_parts_have_the_metal_between_their_planes(self):
+        for n in range(10):
+            body, lengths, answer, (start, finish) = self.drawn_part()
+            with self.subTest(n, target=body["target"]):
+                volume = wall_area(*lengths) * (finish(0, 0) - start(0, 0))
+                self.assertAlmostEqual(answer["lengths"]["volume_mm3"] / volume, 1, delta=1e-4)
+                self.assertAlmostEqual(answer["lengths"]["mass_kg"], volume * 7.85e-6, delta=1e-3)
+                height, width = lengths[0] / 2, lengths[1] / 2
+                for got, (x, y) in zip(answer["side_lengths"]["face_mm"], ((height, 0), (0, width), (-height, 0), (0, -width))):
+                    self.assertAlmostEqual(got, finish(x, y) - start(x, y), delta=0.05)
+
+    def test_nc1_has_each_face_on_the_sharp_rectangle(self):
+        """Each point of a face's outline lies on the outside of the tube, seen square to that face, and on the plane of its end."""
+        for n in range(10):
+            body, (height, width, wall, corner, _), _, planes = self.drawn_part()
+            with self.subTest(n, target=body["target"]):
+                text = self.service.text("parts", body, "format=nc1").decode("ascii")
+                file = parse(text)
+                header = file["header"]
+                self.assertEqual((header["code"], float(header["height"]), float(header["flange_width"])), ("M", height, width))
+                self.assertAlmostEqual(float(header["radius"]), corner, delta=1e-3)
+                self.assertEqual(re.findall(r"^  ([vouh]) ", text, re.M), ["v", "o", "u", "h"])
+                for face, points in zip("vouh", file["AK"]):
+                    across, other = (height, width) if face in "vh" else (width, height)
+                    self.assertEqual(points[0][:2], points[-1][:2])
+                    ys = [y for _, y, _ in points]
+                    self.assertAlmostEqual(min(ys), 0, delta=1e-3)
+                    self.assertAlmostEqual(max(ys), across, delta=1e-3)
+                    twice = sum(x * v - u * y for (x, y, _), (u, v, _) in zip(points, points[1:]))
+                    self.assertEqual(twice > 0, face in "vu", "the outline runs the wrong way")
+                    for x, y, _ in points:
+                        beyond = max(abs(y - across / 2) - (across / 2 - corner), 0)
+                        deep = other / 2 - corner + math.sqrt(max(corner**2 - beyond**2, 0))
+                        place = {"v": (y - across / 2, deep), "h": (y - across / 2, -deep), "o": (deep, y - across / 2), "u": (-deep, y - across / 2)}[face]
+                        self.assertLess(min(abs(x - plane(*place)) for plane in planes), 0.05)
+                self.assertEqual(set(rows_of(file["comments"])), {"start", "finish"})
+
+    def test_parts_are_in_every_file(self):
+        for n in range(4):
+            body, (height, width, wall, outer, _), answer, _ = self.drawn_part()
+            with self.subTest(n, target=body["target"]):
+                drawing = read(self.service.text("parts", body, "format=dxf"))
+                self.assertEqual(drawing.audit().errors, [])
+                curves = [points for points, _ in polylines(drawing, "CUT_OUTER")]
+                self.assertEqual(len(curves), 2)
+                for points in curves:
+                    self.assertAlmostEqual(points[-1][0], girth(height, width, outer), delta=1e-5)
+                self.assertEqual(read(self.service.text("parts", body, "format=dxf&view=tube")).audit().errors, [])
+                for query in ("format=svg", "format=svg&view=template", "format=svg&view=template&mirror=true"):
+                    sheet = xml.fromstring(self.service.text("parts", body, query))
+                    texts = " | ".join("".join(e.itertext()) for e in sheet.iter(f"{SVG}text"))
+                    self.assertIn("rail <1>", texts)
+                order = xml.fromstring(self.service.text("parts", body, "format=svg"))
+                texts = [" ".join(e.itertext()) for e in order.iter(f"{SVG}text")]
+                for face, one in enumerate(answer["side_lengths"]["face_mm"], 1):
+                    self.assertTrue(any(t.endswith(" mm") and abs(float(t[:-3]) - one) < 0.0051 for t in texts if re.fullmatch(r"[\d.]+ mm", t)), face)
+                for query in ("format=pdf", "format=pdf&view=template&paper=a4"):
+                    self.assertEqual(self.service.text("parts", body, query)[:5], b"%PDF-")
+                rows = self.service.text("parts", body, "format=csv").decode().splitlines()
+                wanted = sum(len(end["points"]["girth_mm"]) for end in answer["ends"].values())
+                self.assertEqual(sum(row.startswith(("start,", "finish,")) for row in rows), wanted)
+
     def test_what_shows_round_walls_is_refused_by_its_name(self):
         body, _ = cut_by_tube(self.rng)
         for query, name in (("format=svg&view=section", "view"), ("format=nc1", "format"), ("format=step", "format")):
             status, _, content = self.service.ask("bevel-tables", body, query)
             self.assertEqual((status, name in content.decode()), (422, True), content)
+        part = self.drawn_part()[0]
+        for query in ("format=step", "format=gcode&speed_mm_min=2000"):
+            status, _, content = self.service.ask("parts", part, query)
+            self.assertEqual((status, "csv, svg, pdf, dxf and nc1" in content.decode()), (422, True), content)
 
 
 if __name__ == "__main__":
