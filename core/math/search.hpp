@@ -47,17 +47,17 @@ struct Extreme {
 /// Finds the maximum of `f`, unimodal on [low, high], by golden section; never below the better of
 /// the two inner points.
 ///
-/// Accuracy  the bracket shrinks to 1e-8 of its width, so the value is good to 1e-16 of the curve's
-///           drop over it.
-/// Cost      41 calls.
-template <class F>
+/// Accuracy  the bracket shrinks to 0.618^Steps of its width, by default 1e-8, so the value is good
+///           to the square of it of the curve's drop over it.
+/// Cost      Steps + 2 calls.
+template <int Steps = 39, class F>
 [[nodiscard]] Extreme golden_maximum(F&& f, double low, double high) {
   constexpr double kGolden = 0.6180339887498949;  // (sqrt(5) - 1) / 2
   double left = high - kGolden * (high - low);
   double right = low + kGolden * (high - low);
   double at_left = f(left);
   double at_right = f(right);
-  for (int i = 0; i < 39; ++i) {
+  for (int i = 0; i < Steps; ++i) {
     if (at_left > at_right) {
       high = right;
       right = left;

@@ -86,6 +86,34 @@ Station Curve::at(double s) const {
   return out;
 }
 
+Station Curve::after(const Station& from, double way) const {
+  constexpr double kSmall = 0.2;  // rad: there the series below end at the last digit
+  const double s = from.s + way;
+  if (!(s < girth_)) return at(s);
+  if (!from.on_corner) {
+    if (!(from.along + way < half_flat(from.face))) return at(s);
+    Station out = from;
+    out.s = s;
+    out.along += way;
+    out.point += way * from.tangent();
+    return out;
+  }
+  const double turn = way / corner_;
+  if (!(turn < kSmall) || !(from.along + turn < kQuarter)) return at(s);
+  const double q = turn * turn;
+  const double sine =
+      turn * (1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0))));
+  const double cosine =
+      1.0 - q / 2.0 * (1.0 - q / 12.0 * (1.0 - q / 30.0 * (1.0 - q / 56.0 * (1.0 - q / 90.0))));
+  Station out = from;
+  out.s = s;
+  out.along += turn;
+  out.nu += turn;
+  out.normal = cosine * from.normal + sine * from.tangent();
+  out.point += corner_ * (out.normal - from.normal);
+  return out;
+}
+
 double Curve::on_face(int face, double along) const {
   if (face == 1) return along < 0.0 ? girth_ + along : along;
   return start_[part_of_face(face)] + half_flat(face) + along;

@@ -78,6 +78,12 @@ Across Wall::across(const Station& outside) const {
   return outside.on_corner ? from_corner(outside) : from_face(outside);
 }
 
+double Wall::thickness(const Station& outside) const {
+  const bool own =
+      outside.on_corner ? concentric() : std::abs(outside.along) <= bore_.half_flat(outside.face);
+  return own ? section_.wall : across(outside).wall;
+}
+
 Across Wall::from_face(const Station& outside) const {
   const int face = outside.face;
   const double beyond = std::abs(outside.along) - bore_.half_flat(face);

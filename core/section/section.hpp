@@ -62,6 +62,8 @@ class Wall {
   [[nodiscard]] const Curve& bore() const { return bore_; }
 
   [[nodiscard]] Across across(const Station& outside) const;
+  /// Returns the wall of `across` alone; cheap where the wall is the section's own.
+  [[nodiscard]] double thickness(const Station& outside) const;
   /// Returns s of the place outside whose line ends at this place of the bore.
   [[nodiscard]] double outside_of(const Station& bore) const;
   /// Returns true if the corners are concentric, so that the wall is equally thick everywhere.

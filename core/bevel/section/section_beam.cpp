@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 
 double beam_depth(const SectionSurface& surface, const SectionTable& table, std::size_t row,
                   double share, double kerf) {
-  constexpr int kAlong = 30, kAcross = 6;
-  const double half = 0.5 * kerf, reach = 2.6 * kerf;
+  constexpr int kAlong = 20, kAcross = 6;
+  const double half = 0.5 * kerf, reach = surface.beam_reach(kerf);
   const auto next = surface.next(row);
   const auto own = surface.line(row, share);
   const auto laid = [&](const std::vector<double>& z) {

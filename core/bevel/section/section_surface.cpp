@@ -1,6 +1,7 @@
 #include "core/bevel/section/section_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,11 +17,12 @@ namespace {
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr int kAlong = 14;          // places within reach of the beam, to each side
 constexpr int kAcross = 4;          // parts of the wall
-constexpr double kReach = 2.6;      // kerfs along s that a beam reaches where lines bunch
 constexpr std::size_t kDepths = 6;  // five places across the wall, and the edge of the land
 constexpr int kRounds = 2;          // of the search across and along
-constexpr double kMargin = 0.03;    // of half a kerf
-constexpr int kInGap = 8;           // parts of a gap between rows
+constexpr double kMargin = 0.008;   // of half a kerf: five times what the grid may fall short
+constexpr int kGoldenSteps =
+    10;                    // the bracket shrinks to 1/120, the need is good to 1e-6 of a kerf
+constexpr int kInGap = 8;  // parts of a gap between rows
 
 }  // namespace
 
@@ -38,8 +40,8 @@ SectionSurface::Line SectionSurface::line(std::size_t row, double share) const {
     out.at = table_.at[k];
     out.wall = table_.wall[k];
   } else {
-    out.at = wall_.outer().at(table_.at[row].s + share * width(row));
-    out.wall = wall_.across(out.at).wall;
+    out.at = wall_.outer().after(table_.at[row], share * width(row));
+    out.wall = wall_.thickness(out.at);
   }
   out.inner = mixed(table_.z_inner);
   out.outer = mixed(table_.z_outer);
@@ -67,6 +69,22 @@ std::size_t SectionSurface::row_before(double s) const {
                                     : static_cast<std::size_t>(after - table_.at.begin()) - 1;
 }
 
+bool SectionSurface::flat_around(const section::Station& at, double reach) const {
+  if (at.on_corner) return false;
+  const double half = std::min(wall_.outer().half_flat(at.face), wall_.bore().half_flat(at.face));
+  return std::abs(at.along) + reach <= half;
+}
+
+double SectionSurface::beam_reach(double kerf) const {
+  constexpr double kBunched = 2.6;  // kerfs, where lines bunch on a bore that is not concentric
+  const double half = 0.5 * kerf, radius = wall_.outer().corner();
+  if (!wall_.concentric()) return kBunched * kerf;
+  // A place on the bore lies within half a kerf of the beam's plane; beyond a quarter turn it turns
+  // away.
+  const double bore = radius - wall_.section().wall;
+  return half < bore ? std::max(half, radius * elementary::asin(half / bore)) : kBunched * kerf;
+}
+
 double SectionSurface::z(const Line& line, double depth) const {
   const double from_bore = line.wall - depth;  // outwards
   if (from_bore >= land())
@@ -75,6 +93,38 @@ double SectionSurface::z(const Line& line, double depth) const {
 }
 
 namespace {
+
+/// Returns the drop at a place around which, within half a kerf, the outside and the bore are flat:
+/// there the wall has one thickness, and the surface between two rows is ruled over straight edges.
+/// At a depth, the need of such a strip is largest at a place with a closed form. For each place it
+/// is linear in the depth, so its largest value is convex in the depth: it lies at an edge of the
+/// wall, or of the land.
+/// Accuracy  exact within rounding.
+double drop_on_flat(const SectionSurface& surface, const SectionSurface::Line& own, std::size_t row,
+                    double kerf) {
+  const double half = 0.5 * kerf, slope = own.slope();
+  const double secant = elementary::hypot(1.0, slope);
+  double best = 0.0;
+  surface.rows_near(row, kerf, [&](std::size_t i) {
+    const auto from = surface.line(i, 0.0), to = surface.line(i, 1.0);
+    const double a = std::remainder(from.at.s - own.at.s, surface.wall().outer().girth());
+    const double b = a + surface.width(i);
+    const double low = std::max(a, -half), high = std::min(b, half);
+    if (!(low <= high)) return;
+    const auto see = [&](double depth) {
+      const double z_a = surface.z(from, depth), z_b = surface.z(to, depth);
+      const double rise = b > a ? (z_b - z_a) / (b - a) : 0.0;
+      const double u = std::clamp(-rise * half / elementary::hypot(secant, rise), low, high);
+      const double z = b > a ? z_a + rise * (u - a) : std::min(z_a, z_b);
+      best = std::max(best, own.outer - depth * slope - z +
+                                std::sqrt(std::max(0.0, (half - u) * (half + u))) * secant);
+    };
+    see(0.0);
+    see(own.wall - surface.land());
+    if (surface.land() > 0.0) see(own.wall);
+  });
+  return best;
+}
 
 /// Finds the drop that one place of the cut needs.
 class Drop {
@@ -89,7 +139,7 @@ class Drop {
         deepest_(-(own_.wall + kerf)) {}
 
   double needed(std::size_t row) {
-    const double reach = kReach * 2.0 * half_;
+    const double reach = surface_.beam_reach(2.0 * half_);
     const auto grid = places(reach);
     std::vector<double> sampled(grid.size() * kDepths);
     for (std::size_t k = 0; k < grid.size(); ++k) {
@@ -101,7 +151,7 @@ class Drop {
       }
     }
     const double margin = kMargin * half_ * secant_;  // by which the grid may fall short
-    for (std::size_t a = 0; a < kDepths; ++a) refine(grid, &sampled[a * grid.size()], a, margin);
+    for (std::size_t a = 0; a < kDepths; ++a) refine(grid, sampled, a, margin);
     // The surface has its edges' corners at rows: both of a jump count.
     surface_.rows_near(row, reach, [&](std::size_t i) { across(surface_.line(i, 0.0), margin); });
     for (int round = 0; round < kRounds; ++round) {
@@ -123,9 +173,14 @@ class Drop {
 
   /// Ascending s: dense where the beam's circle is steep, further out where lines bunch.
   [[nodiscard]] std::vector<double> places(double reach) const {
+    static const auto kSines = [] {
+      std::array<double, 2 * kAlong + 1> sines{};
+      for (int k = -kAlong; k <= kAlong; ++k)
+        sines[static_cast<std::size_t>(k + kAlong)] = elementary::sin(0.5 * kPi * k / kAlong);
+      return sines;
+    }();
     std::vector<double> out;
-    for (int k = -kAlong; k <= kAlong; ++k) {
-      const double sine = elementary::sin(0.5 * kPi * k / kAlong);
+    for (const double sine : kSines) {
       out.push_back(own_.at.s + half_ * sine);
       if (reach * std::abs(sine) > half_) out.push_back(own_.at.s + reach * sine);
     }
@@ -133,22 +188,27 @@ class Drop {
     return out;
   }
 
-  /// Refines every maximum of the grid that may be the largest.
-  void refine(const std::vector<double>& grid, const double* sampled, std::size_t a,
+  /// Refines every maximum of the grid, along and across, that may be the largest.
+  void refine(const std::vector<double>& grid, const std::vector<double>& sampled, std::size_t a,
               double margin) {
-    for (std::size_t k = 0; k < grid.size(); ++k) {
-      const double here = sampled[k];
+    const auto n = grid.size();
+    const double* own = &sampled[a * n];
+    for (std::size_t k = 0; k < n; ++k) {
+      const double here = own[k];
       if (!(here > best_ - margin)) continue;
-      const bool left = k == 0 || here >= sampled[k - 1];
-      const bool right = k + 1 == grid.size() || here >= sampled[k + 1];
-      if (left && right)
+      const bool left = k == 0 || here >= own[k - 1];
+      const bool right = k + 1 == n || here >= own[k + 1];
+      // Of depths with one need, as at B = 0, the outermost counts.
+      const bool outwards = a == 0 || here > sampled[(a - 1) * n + k];
+      const bool inwards = a + 1 == kDepths || here >= sampled[(a + 1) * n + k];
+      if (left && right && outwards && inwards)
         along(grid[k == 0 ? 0 : k - 1], grid[k + 1 == grid.size() ? k : k + 1],
               [&](const SectionSurface::Line& line) { return depth_of(line, a); });
     }
   }
   template <class Depth>
   void along(double low, double high, Depth depth) {
-    const auto most = math::golden_maximum(
+    const auto most = math::golden_maximum<kGoldenSteps>(
         [&](double s) {
           const auto line = line_at(s);
           return need(line, depth(line));
@@ -173,8 +233,9 @@ class Drop {
     const double wide = line.wall / static_cast<double>(kDepths - 2);
     const auto golden = [&](double low, double high) {
       if (!(low < high)) return;
-      see(line,
-          math::golden_maximum([&](double depth) { return need(line, depth); }, low, high).at);
+      see(line, math::golden_maximum<kGoldenSteps>([&](double depth) { return need(line, depth); },
+                                                   low, high)
+                    .at);
     };
     golden(std::max(0.0, at - wide), std::min(at + wide, edge));
     golden(std::max(edge, at - wide), std::min(at + wide, line.wall));
@@ -212,7 +273,10 @@ class Drop {
 }  // namespace
 
 double needed_drop(const SectionSurface& surface, std::size_t row, double share, double kerf) {
-  return kerf > 0.0 ? Drop(surface, row, share, kerf).needed(row) : 0.0;
+  if (!(kerf > 0.0)) return 0.0;
+  const auto own = surface.line(row, share);
+  if (surface.flat_around(own.at, 0.5 * kerf)) return drop_on_flat(surface, own, row, kerf);
+  return Drop(surface, row, share, kerf).needed(row);
 }
 
 SectionTable::Deepest deepest_in_gap(const SectionSurface& surface, std::size_t row,
@@ -245,7 +309,8 @@ SectionTable::Deepest deepest_in_gap(const SectionSurface& surface, std::size_t 
     const double depth = share * line.wall;
     return -solids[solid].distance(SectionSurface::place(line, depth, surface.z(line, depth)));
   };
-  const auto most = math::golden_maximum(depth_at, std::max(0.0, deepest_share - 1.0 / kInGap),
+  const auto most =
+      math::golden_maximum<kGoldenSteps>(depth_at, std::max(0.0, deepest_share - 1.0 / kInGap),
                                          std::min(1.0, deepest_share + 1.0 / kInGap));
   see(surface.line(row, most.at), share);
   return out;

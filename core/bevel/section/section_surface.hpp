@@ -31,6 +31,10 @@ class SectionSurface {
   [[nodiscard]] Line line_at(std::size_t row, double s) const;
   /// The row before s ([0, girth)), or the last.
   [[nodiscard]] std::size_t row_before(double s) const;
+  /// Returns true if the outside and the bore are flat within `reach` (mm) of a place.
+  [[nodiscard]] bool flat_around(const section::Station& at, double reach) const;
+  /// Returns how far along s (mm) the metal lies that a beam of this width touches.
+  [[nodiscard]] double beam_reach(double kerf) const;
   /// At a depth below the outside, mm.
   [[nodiscard]] double z(const Line& line, double depth) const;
   [[nodiscard]] static Eigen::Vector3d place(const Line& line, double depth, double z) {

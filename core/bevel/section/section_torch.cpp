@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/base/elementary.hpp"
 #include "core/bevel/beam/beam.hpp"
@@ -11,12 +12,12 @@
 namespace tubecut::bevel::detail {
 namespace {
 
-constexpr int kParts = 4;  // of a gap between rows
-constexpr double kNear[] = {0.5, 0.95, 1.05, 1.4, 1.8,
-                            2.4, 3.2,  4.2,  5.2};  // of half a kerf, from a row
-constexpr double kBend = 1e-3;                      // mm: a straighter need is not divided
-constexpr int kDivisions = 3;                       // of an interval, each into halves
-constexpr int kSpared = 6;                          // rounds of lowering rows that the beam enters
+constexpr int kParts = 4;               // of a gap between rows
+constexpr double kNear[] = {0.5, 1.0};  // of half a kerf, from a row
+constexpr double kNearJump[] = {0.5, 0.95, 1.05, 1.4, 1.8, 2.4, 3.2, 4.2, 5.2};
+constexpr double kBend = 1e-3;  // mm: a straighter need is not divided
+constexpr int kDivisions = 3;   // of an interval, each into halves
+constexpr int kSpared = 6;      // rounds of lowering rows that the beam enters
 constexpr double kLooked[] = {0.0, 0.04, 0.1, 0.2, 0.35,
                               0.5, 0.65, 0.8, 0.9, 0.96};  // shares of a gap
 constexpr double kEntered = 1e-4;                          // mm
@@ -49,6 +50,14 @@ class Torch {
   }
 
  private:
+  /// Returns true if a beam at this gap reaches a jump, where the need may step.
+  [[nodiscard]] bool near_jump(std::size_t row) const {
+    bool out = false;
+    surface_.rows_near(row, surface_.beam_reach(spec_.kerf),
+                       [&](std::size_t i) { out = out || !(surface_.width(i) > 0.0); });
+    return out;
+  }
+
   /// The needs of a gap by share, dense where they bend or step. The edges have corners at rows, so
   /// the need changes most within half a kerf of one.
   [[nodiscard]] std::vector<Need> needs(std::size_t row) const {
@@ -56,7 +65,10 @@ class Torch {
     std::vector<double> shares{0.0, 1.0};
     for (int k = 1; k < kParts && wide > kShortest; ++k)
       shares.push_back(static_cast<double>(k) / kParts);
-    for (const double near : kNear) {
+    const bool steps = near_jump(row);
+    const std::span<const double> dense =
+        steps ? std::span<const double>(kNearJump) : std::span<const double>(kNear);
+    for (const double near : dense) {
       const double share = near * half / wide;
       if (share >= 1.0 || wide <= kShortest) break;
       shares.push_back(share);
@@ -121,6 +133,14 @@ class Torch {
     }
   }
 
+  /// How deep the beam enters the part, mm; on a flat from the exact need there.
+  [[nodiscard]] double entered_at(const SectionSurface::Line& line, const Need& here) const {
+    if (!surface_.flat_around(line.at, 0.5 * spec_.kerf))
+      return beam_depth(surface_, table_, here.row, here.share, spec_.kerf);
+    const double lacks = needed_drop(surface_, here.row, here.share, spec_.kerf) - laid(here);
+    return lacks / elementary::hypot(1.0, line.slope());
+  }
+
   /// Lowers the rows where the beam, as a cylinder, still enters the part.
   void spare(const std::stop_token& stop) {
     auto& out = table_.torch_line;
@@ -130,9 +150,9 @@ class Torch {
       for (std::size_t i = 0; i < table_.at.size() && !stop.stop_requested(); ++i)
         for (const double share : kLooked) {
           if (share > 0.0 && !(surface_.width(i) > 0.0)) continue;
-          const double depth = beam_depth(surface_, table_, i, share, spec_.kerf);
           const auto line = surface_.line(i, share);
           const Need here{i, share, 0.0};
+          const double depth = entered_at(line, here);
           if (depth > kEntered)
             entered.push_back(
                 {i, share, laid(here) + depth * elementary::hypot(1.0, line.slope())});

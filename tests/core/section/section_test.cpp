@@ -84,6 +84,23 @@ TEST(Section, StationsAndWallsAreGolden) {
   }
 }
 
+TEST(Section, APlaceAfterAnotherIsThatPlace) {
+  for (const auto& curve : {section::Curve(100, 60, 8), section::Curve(40, 90, 20),
+                            section::Curve(50, 50, 25), section::Curve(80, 80, 0)})
+    for (int i = 0; i < 200; ++i)
+      for (const double way : {0.0, 0.01, 0.7, 3.0, 25.0, 140.0}) {
+        const auto from = curve.at(curve.girth() * i / 200.0);
+        const auto got = curve.after(from, way), want = curve.at(from.s + way);
+        ASSERT_LT((got.point - want.point).norm(), 1e-13);
+        ASSERT_LT((got.normal - want.normal).norm(), 1e-14);
+        ASSERT_NEAR(got.s, want.s, 1e-13);
+        ASSERT_NEAR(got.nu, want.nu, 1e-14);
+        ASSERT_NEAR(got.along, want.along, 1e-13);
+        ASSERT_EQ(got.on_corner, want.on_corner);
+        ASSERT_EQ(got.face, want.face);
+      }
+}
+
 TEST(Section, EveryPlaceOfTheBoreHasItsLineOutside) {
   std::mt19937_64 random(20261127);
   const auto any = [&](double low, double high) {
