@@ -1,6 +1,5 @@
 #include "server/access.hpp"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <openssl/crypto.h>
 #include <openssl/sha.h>
@@ -15,6 +14,7 @@
 #include <system_error>
 
 #include "api/wire/header_list.hpp"
+#include "server/http/networks.hpp"
 #include "server/identity.hpp"
 
 namespace tubecut::server {
@@ -82,44 +82,6 @@ std::string sent_key(const Headers& headers) {
     return std::string(authorization.substr(kScheme.size()));
   }
   return std::string(header(headers, "X-Api-Key"));
-}
-
-/// An address as 16 bytes, those of IPv4 mapped into IPv6; and how many bits of them are the
-/// network.
-struct Network {
-  std::array<std::uint8_t, 16> bytes = {};
-  int bits = 128;
-};
-
-std::optional<Network> parse_address(const std::string& text) {
-  Network out;
-  if (inet_pton(AF_INET6, text.c_str(), out.bytes.data()) == 1) return out;
-  out.bytes = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};
-  if (inet_pton(AF_INET, text.c_str(), out.bytes.data() + 12) == 1) return out;
-  return std::nullopt;
-}
-
-std::optional<Network> parse_network(const std::string& text) {
-  const auto slash = text.find('/');
-  auto out = parse_address(text.substr(0, slash));
-  if (!out || slash == std::string::npos) return out;
-  const bool four = text.find(':') == std::string::npos;
-  int bits = -1;
-  const char* const last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data() + slash + 1, last, bits);
-  if (error != std::errc{} || end != last || bits < 0 || bits > (four ? 32 : 128))
-    return std::nullopt;
-  out->bits = four ? 96 + bits : bits;
-  return out;
-}
-
-bool within(const Network& address, const Network& network) {
-  for (int bit = 0; bit < network.bits; ++bit) {
-    const auto byte = static_cast<std::size_t>(bit / 8);
-    const auto mask = static_cast<std::uint8_t>(0x80U >> (bit % 8));
-    if (((address.bytes[byte] ^ network.bytes[byte]) & mask) != 0) return false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -206,14 +168,6 @@ NewKey make_key(const std::string& identity) {
   return out;
 }
 
-bool is_loopback(std::string_view host) {
-  if (host == "localhost") return true;
-  const std::string text = std::string(host);
-  return in_networks(text, {"127.0.0.0/8", "::1"});
-}
-
-bool is_network(const std::string& text) { return parse_network(text).has_value(); }
-
 bool is_origin(std::string_view text) {
   const auto scheme = text.find("://");
   if (scheme == std::string_view::npos || scheme == 0) return false;
@@ -226,15 +180,6 @@ bool is_origin(std::string_view text) {
   return fit(text.substr(0, scheme), "+-.") && fit(host, "-._:[]");
 }
 
-bool in_networks(std::string_view peer, const std::vector<std::string>& networks) {
-  const auto address = parse_address(std::string(peer));
-  if (!address) return false;
-  return std::ranges::any_of(networks, [&](const std::string& text) {
-    const auto network = parse_network(text);
-    return network && within(*address, *network);
-  });
-}
-
 std::string client_of(const Request& request, const std::vector<std::string>& proxies) {
   std::string client = request.peer;
   std::vector<api::ListElement> hops;
@@ -242,7 +187,7 @@ std::string client_of(const Request& request, const std::vector<std::string>& pr
     std::ranges::move(api::header_list(value), std::back_inserter(hops));
   for (; !hops.empty() && in_networks(client, proxies); hops.pop_back()) {
     std::string last(hops.back().name);
-    if (!parse_address(last)) break;  // trust only addresses that our own proxies wrote
+    if (!is_address(last)) break;  // trust only addresses that our own proxies wrote
     client = std::move(last);
   }
   return client;

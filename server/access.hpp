@@ -66,17 +66,8 @@ struct NewKey {
 /// Whether a key's owner can be so named: 1 to 64 letters, digits, . _ -
 [[nodiscard]] bool sound_identity(std::string_view name);
 
-/// Whether an address to listen on is reached from this machine only.
-[[nodiscard]] bool is_loopback(std::string_view host);
-
-[[nodiscard]] bool is_network(const std::string& text);
-
 /// Whether a browser could send it as `Origin`: "https://plant.example:8443".
 [[nodiscard]] bool is_origin(std::string_view text);
-
-/// Returns whether `peer` lies in one of the addresses or networks ("10.0.0.0/8"). Malformed texts
-/// match nothing.
-[[nodiscard]] bool in_networks(std::string_view peer, const std::vector<std::string>& networks);
 
 /// Returns the address of the client: the peer, or, if the peer is one of `proxies`, the last
 /// address of X-Forwarded-For that is not.

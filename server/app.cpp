@@ -9,6 +9,7 @@
 #include <exception>
 
 #include "server/http/coding.hpp"
+#include "server/http/networks.hpp"
 #include "server/http/static_files.hpp"
 #include "server/identity.hpp"
 #include "server/jobs/job_memory.hpp"

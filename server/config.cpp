@@ -17,6 +17,7 @@
 #include "api/api.hpp"
 #include "api/wire/field_names.hpp"
 #include "server/access.hpp"
+#include "server/http/networks.hpp"
 
 namespace tubecut::server {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "server/access.hpp"
 #include "server/http/http.hpp"
+#include "server/http/networks.hpp"
 
 namespace tubecut::server {
 namespace {

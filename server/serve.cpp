@@ -23,6 +23,7 @@
 #include "server/admin.hpp"
 #include "server/admin_port.hpp"
 #include "server/app.hpp"
+#include "server/http/networks.hpp"
 #include "server/http/transport.hpp"
 #include "server/jobs/capacity.hpp"
 #include "server/machine_files.hpp"

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "server/app.hpp"
+#include "server/http/networks.hpp"
 #include "server/jobs/capacity.hpp"
 #include "server/observe/job_files.hpp"
 
