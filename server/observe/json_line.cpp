@@ -2,16 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 namespace tubecut::server {
 namespace {
 
-constexpr std::size_t kText = 2048;  // bytes printed of one text
+constexpr std::size_t kText = 2048;  // bytes printed of one text between its quotes
 constexpr std::size_t kTexts =
     10240;  // of the line; two names and texts and the numbers come on top
+
+/// Bytes that are no UTF-8 become U+FFFD: whatever the bytes are, the line stays one line of valid
+/// JSON.
+std::string quoted(std::string_view value) {
+  using nlohmann::json;
+  return json(value).dump(-1, ' ', false, json::error_handler_t::replace);
+}
 
 }  // namespace
 
@@ -25,26 +32,6 @@ void JsonLine::key(std::string_view name) {
   x_ += ':';
 }
 
-namespace {
-
-/// Length of the UTF-8 sequence of two to four bytes that `text` begins with; 0 when it begins with
-/// none. Overlong forms and surrogates are left to the reader of the line: they harm no JSON
-/// parser's framing.
-std::size_t utf8_sequence(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text.front());
-  const std::size_t length = lead >= 0xf0 && lead < 0xf5 ? 4
-                             : lead >= 0xe0              ? 3
-                             : lead >= 0xc2              ? 2
-                                                         : 0;
-  if (lead >= 0xf5 || length == 0 || text.size() < length) return 0;
-  for (const char c : text.substr(1, length - 1)) {
-    if ((static_cast<unsigned char>(c) & 0xc0) != 0x80) return 0;
-  }
-  return length;
-}
-
-}  // namespace
-
 /// No more texts then: the numbers that follow still have room.
 bool JsonLine::full() {
   const bool full = x_.size() > kTexts;
@@ -57,29 +44,12 @@ std::string JsonLine::done() {
   return x_ + '}';
 }
 
-/// UTF-8 stays as it is; control characters and bytes that are no UTF-8 become \u00XX: whatever the
-/// bytes are, the line stays one line of valid JSON that no terminal interprets.
 void JsonLine::quote(std::string_view value) {
-  x_ += '"';
-  const auto most = x_.size() + kText;
-  while (!value.empty()) {
-    if (x_.size() >= most) {
-      ++left_out_;
-      break;
-    }
-    const auto byte = static_cast<unsigned char>(value.front());
-    const std::size_t length = byte < 0x80 ? 1 : utf8_sequence(value);
-    if (byte == '"' || byte == '\\') {
-      x_ += '\\';
-      x_ += value.front();
-    } else if (byte < 0x20 || byte == 0x7f || length == 0) {
-      fmt::format_to(std::back_inserter(x_), "\\u{:04x}", byte);
-    } else {
-      x_ += value.substr(0, length);
-    }
-    value.remove_prefix(std::max<std::size_t>(length, 1));
-  }
-  x_ += '"';
+  auto some = value.substr(0, kText);
+  auto text = quoted(some);
+  while (text.size() > kText + 2) text = quoted(some = some.substr(0, some.size() / 2));
+  left_out_ += some.size() < value.size() ? 1 : 0;
+  x_ += text;
 }
 
 JsonLine& JsonLine::text(std::string_view name, std::string_view value) {
