@@ -44,8 +44,8 @@ struct Context {
 };
 
 /// A job ends at the latest this many times its CPU budget after its request arrived, even if it
-/// got little CPU. A replica works on at most three jobs per slot (slot, lane and one that has
-/// outgrown the lane): each has a third of a CPU, and half a budget may pass in the queue.
+/// got little CPU. A replica with one slot works on two jobs at a time: each has half of a CPU,
+/// half a budget may pass in the queue, and as much again is left for other processes.
 inline constexpr int kWallPerCpu = 4;
 
 /// Seconds of CPU for a call at a path.

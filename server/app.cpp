@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -121,6 +122,22 @@ Headers answer_headers(const api::Outcome& outcome, const Identity& id, int stat
   return headers;
 }
 
+/// The endpoints with short jobs, and the largest body of one. At all others every job is long,
+/// because a small body can ask for minutes of cutting or thousands of positions there.
+struct ShortUpTo {
+  std::string_view endpoint;
+  std::size_t bytes;
+};
+constexpr auto kShort = std::to_array<ShortUpTo>({
+    {"intersections", 64u << 10},
+    {"bevel-tables", 64u << 10},
+    {"holes", 64u << 10},
+    {"feed-curves", 64u << 10},
+    {"grooves", 64u << 10},
+    {"replays", 64u << 10},
+    {"parts", 4u << 10},
+});
+
 }  // namespace
 
 double steady_seconds() {
@@ -184,9 +201,11 @@ std::string App::client(const Request& request) const {
   return client_of(request, x_.trusted_proxies);
 }
 
-std::string_view App::kind(const Request& request) {
-  if (request.method != "POST") return "catalogue";
-  return api::endpoint_at(path_of(request.target));
+bool App::is_short(const Request& request) {
+  if (request.method != "POST") return true;
+  const auto endpoint = api::endpoint_at(path_of(request.target));
+  const auto* const row = std::ranges::find(kShort, endpoint, &ShortUpTo::endpoint);
+  return request.line == 0 && row != kShort.end() && request.body.size() <= row->bytes;
 }
 
 bool App::is_proxy(const std::string& peer) const { return in_networks(peer, x_.trusted_proxies); }

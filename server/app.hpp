@@ -110,8 +110,9 @@ class App {
   /// Returns the client of the request: the owner of its key, else its address.
   [[nodiscard]] std::string client(const Request& request) const;
 
-  /// Returns the endpoint, "batches" for a batch and its lines, "catalogue" for other paths.
-  [[nodiscard]] static std::string_view kind(const Request& request);
+  /// Returns whether the job is of the short class: by its endpoint and the size of its body.
+  /// Catalogues are, lines of batches are not.
+  [[nodiscard]] static bool is_short(const Request& request);
 
   /// Is it the address of a trusted proxy?
   [[nodiscard]] bool is_proxy(const std::string& peer) const;

@@ -92,7 +92,7 @@ Service service_of(const App& app) {
               [](std::string_view line) { return api::kReservedPerByteOfLarge * line.size(); },
           .room = [&app](std::string_view target) { return app.room(target); },
           .client = [&app](const Request& request) { return app.client(request); },
-          .kind = App::kind,
+          .is_short = App::is_short,
           .is_shared = [&app](const std::string& peer) { return app.is_proxy(peer); },
           .budget = [&app](const Request& request) { return app.budget(request); }};
 }

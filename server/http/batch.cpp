@@ -160,7 +160,6 @@ Task<void> Batch::answer_lines() {
     co_await on_.pause(std::min(due(), looks));
     if (Clock::now() < looks) continue;
     on_.look();
-    if (!on_.jobs_.empty()) port_.slots.look(*on_.jobs_.front());
     looks = Clock::now() + kLook;
   }
 }

@@ -25,9 +25,7 @@ constexpr std::size_t kLingerBytes = 64u << 20;
 /// If a client has closed only its sending side, it still reads a quick answer; during this time it
 /// looks the same as a client that hung up.
 constexpr auto kHangUpGrace = 250ms;
-constexpr auto kQuickLook = 5ms;   // of those, whether its turn in the lane has come
 constexpr auto kCheckPeer = 20ms;  // whether the client is still there, while its job is worked on
-constexpr double kLikely = 0.5;    // of a job's wait, as the last jobs of its kind foretell
 
 constexpr std::string_view kFull = "All slots and the queue are full.";
 
@@ -289,13 +287,6 @@ Task<void> Session::answer_request() {
   co_await send(std::move(job->answer));
 }
 
-/// Whether a slot is likely free before the job's wait is over: a refusal now serves the client
-/// better than one after the wait.
-bool Session::in_time(Job& job) const {
-  if (job.due == Clock::time_point::max()) return true;
-  return port_.slots.expected_wait(job) <= kLikely * (seconds(job.due) - job.request.times.read);
-}
-
 /// Reserves the job's memory and queues it. Returns a refusal if that fails.
 std::optional<Refusal> Session::offer(const std::shared_ptr<Job>& job) {
   const Request& request = job->request;
@@ -304,10 +295,6 @@ std::optional<Refusal> Session::offer(const std::shared_ptr<Job>& job) {
   if (!port_.make_memory(memory)) {
     ++port_.counters.memory;
     return Refusal{ErrorCode::overloaded, "The memory for jobs is in use."};
-  }
-  if (!in_time(*job)) {
-    ++port_.counters.wait;
-    return Refusal{ErrorCode::overloaded, "No slot will be free within half of the job's budget."};
   }
   if (port_.service.admit) {
     if (auto refusal = port_.service.admit(request)) return refusal;
@@ -334,7 +321,7 @@ std::optional<Refusal> Session::know_client(const Request& request) {
 void Session::claim(Job& job) const {
   job.claim.client = client_;
   job.claim.flow = this;
-  if (port_.service.kind) job.kind = port_.service.kind(job.request);
+  job.is_short = port_.service.is_short && port_.service.is_short(job.request);
 }
 
 /// Waits for the job's slot, and its end; or refuses it.
@@ -343,12 +330,10 @@ Task<void> Session::take_turn(std::shared_ptr<Job> job) {
   gone_by_ = Clock::time_point::max();
   bool waits = true;
   while (!job->finished) {
-    const auto when = std::min(std::min(job->due, gone_by_),
-                               Clock::now() + (job->claim.quick ? kQuickLook : kCheckPeer));
-    co_await pause(when);
+    const auto until = std::min(std::min(job->due, gone_by_), Clock::now() + kCheckPeer);
+    co_await pause(until);
     if (job->finished) break;
     look();
-    port_.slots.look(*job);
     if (Clock::now() < job->due && !job->displaced) continue;
     if (waits && (job->displaced || port_.slots.withdraw(job))) {
       refuse_waiting(*job, port_.counters);

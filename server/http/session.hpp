@@ -85,7 +85,6 @@ class Session final : public Strand {
   void refuse(Refusal refusal);
   [[nodiscard]] std::shared_ptr<Job> take_job();
   [[nodiscard]] std::optional<Refusal> offer(const std::shared_ptr<Job>& job);
-  [[nodiscard]] bool in_time(Job& job) const;
   [[nodiscard]] std::optional<Refusal> know_client(const Request& request);
   void claim(Job& job) const;
   void look();

@@ -40,8 +40,8 @@ struct Service {
   std::function<std::size_t(std::string_view target)> room = {};
   /// Returns the client of the request, for fair turns. Empty: the address.
   std::function<std::string(const Request&)> client = {};
-  /// Returns a label, of a closed set, of jobs with about the same length; empty: all are alike.
-  std::function<std::string_view(const Request&)> kind = {};
+  /// Returns whether the job is short, so that it need not wait for long ones; empty: none is.
+  std::function<bool(const Request&)> is_short = {};
   /// Returns whether many clients come from that address, a proxy's; empty: no shared address.
   std::function<bool(const std::string& peer)> is_shared = {};
   /// Time for the job; empty: no end.

@@ -5,12 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <stop_token>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -39,10 +37,9 @@ struct Job {
       std::chrono::steady_clock::time_point::max();  // of its budget by the wall's clock
   std::chrono::steady_clock::time_point due =
       std::chrono::steady_clock::time_point::max();  // when the port has to look at it
-  std::string_view kind = {};                        // jobs of a kind take about as long
   Claim claim = {};
-  bool in_lane = false;                     // of the slots' mutex
-  double began_s = 0.0;                     // of the slots' mutex; 0: it waits
+  bool is_short = false;                    // its class
+  bool begun = false;                       // of the slots' mutex
   CpuClock cpu = {};                        // of the slots' mutex; its thread's while it runs
   HeldBytes held = {};                      // while it runs
   CpuBudget all_cpu{stop, &held};           // of all threads that work at it
@@ -61,9 +58,9 @@ struct Job {
 /// CPU of all threads for a job that a slot has begun. In its thread, or with the slots' mutex.
 [[nodiscard]] std::chrono::nanoseconds used(const Job& job);
 
-/// The threads that compute, and the bounded queue before them. Beside the slots there is a lane
-/// for jobs that are expected to be quick: long ones never wait in front of them. A job that turns
-/// out not to be makes room in the lane and counts among the long ones.
+/// The threads that compute, and the bounded queues before them, one for short jobs and one for
+/// long ones. A slot takes from both in turn, so neither class waits for ever. In addition, one
+/// thread takes only short jobs, so these never wait until a long one ends.
 class Slots {
  public:
   using Step = std::function<void(std::shared_ptr<Job>)>;
@@ -77,23 +74,17 @@ class Slots {
   /// Ends the threads once the jobs that have begun are done; queued ones are dropped.
   void join();
 
-  /// Expected seconds until the job's turn, from what runs and waits now.
-  [[nodiscard]] double expected_wait(Job& job) const;
-
   /// Whether it has not begun yet.
   [[nodiscard]] bool waits(const Job& job) const;
 
   struct Offer {
-    bool taken = false;                   // false: the queue is full
+    bool taken = false;                   // false: the queue of its class is full
     std::shared_ptr<Job> displaced = {};  // another's, which lost its place
   };
   [[nodiscard]] Offer offer(const std::shared_ptr<Job>& job);
 
   /// Takes back a job that no slot has begun; false when one has.
   [[nodiscard]] bool withdraw(const std::shared_ptr<Job>& job);
-
-  /// To be called now and then while the job waits or runs: it takes the lane, or has outgrown it.
-  void look(Job& job);
 
   /// See Helpers; of a job that a slot has begun, by threads that hold none.
   void take_turns(std::size_t count, const Turn& turn, const Helpers::Within& within) {
@@ -111,32 +102,25 @@ class Slots {
   [[nodiscard]] int count() const { return count_; }
 
  private:
-  void run(bool quick_only);
-  [[nodiscard]] std::shared_ptr<Job> next(bool quick_only);
-  [[nodiscard]] Sleepers* call_one(bool quick);
-  [[nodiscard]] Sleepers* call_any(bool quick);
-  void estimate(Job& job) const;
-  void leave_lane(Job& job);
-  [[nodiscard]] bool has_spare() const;
-  void finish(Job& job, std::chrono::nanoseconds own);
-  void tell_helpers();
-  void learn(const Job& job, double took);
-  [[nodiscard]] const double* mean_of(const Job& job) const;
+  void run(bool in_slot);
+  [[nodiscard]] FairQueue& queue_of(const Job& job) { return job.is_short ? short_ : long_; }
+  [[nodiscard]] std::shared_ptr<Job> pop(bool in_slot);
+  [[nodiscard]] std::shared_ptr<Job> next(bool in_slot);
+  [[nodiscard]] Sleepers* call_one(bool is_short);
+  void finish(Job& job, bool in_slot, std::chrono::nanoseconds own);
+  void count_waiting();
 
   Step work_;
   Step done_;
   int count_;
-  std::size_t most_;
+  std::size_t queue_;  // the most jobs of a class that wait
   mutable std::mutex mutex_;
-  Sleepers any_, quick_;  // the threads that do any job, and the one that does quick ones alone
-  int back_ = 0;          // threads that are done with a job and have not looked for the next
-  FairQueue queue_;
-  using Means = std::map<std::string_view, double>;  // seconds, by kind
-  Means means_;
-  std::map<std::string, Means, std::less<>> of_clients_;
-  std::vector<std::shared_ptr<Job>> running_;  // in slots and in the lane
+  Sleepers slots_, extra_;  // the slots' threads, and the one for short jobs only
+  int back_ = 0;            // slots' threads that are done with a job and look for the next
+  FairQueue short_, long_;
+  bool long_next_ = false;  // whether it is the long jobs' turn in a slot
   int in_slots_ = 0;
-  int in_lane_ = 0;
+  int in_extra_ = 0;
   bool ending_ = false;
   std::atomic<std::size_t> waiting_ = 0;
   std::atomic<int> busy_ = 0;

@@ -151,6 +151,27 @@ TEST(App, ReportsStageTimesAndReplica) {
   EXPECT_EQ(header(response.headers, "Tubecut-Replica"), "cell-3");
 }
 
+TEST(App, ClassifiesJobsByEndpointAndSize) {
+  auto asked = request();
+  const auto is_short = [&](std::string target, std::size_t bytes) {
+    asked.target = std::move(target);
+    asked.body.assign(bytes, ' ');
+    return App::is_short(asked);
+  };
+  for (const auto* path : {"/v1/bevel-tables?format=csv", "/v1/holes", "/v1/intersections",
+                           "/v1/feed-curves", "/v1/grooves", "/v1/replays"}) {
+    EXPECT_TRUE(is_short(path, 64 << 10)) << path;
+    EXPECT_FALSE(is_short(path, (64 << 10) + 1)) << path;
+  }
+  EXPECT_TRUE(is_short("/v1/parts", 4 << 10));
+  EXPECT_FALSE(is_short("/v1/parts", (4 << 10) + 1));
+  for (const auto* path : {"/v1/frames", "/v1/nodes", "/v1/mill-paths", "/v1/pulse-schedules"})
+    EXPECT_FALSE(is_short(path, 2)) << path;
+  asked.line = 1;
+  EXPECT_FALSE(is_short("/v1/bevel-tables", 2));
+  EXPECT_TRUE(App::is_short({.method = "GET", .target = "/v1/tubes"}));
+}
+
 TEST(App, NamesTheCharsetToPreventCompression) {
   Fake fake;
   EXPECT_EQ(fake.app().handle(request()).content_type, "application/json; charset=utf-8");

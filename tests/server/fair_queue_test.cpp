@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <random>
@@ -12,17 +13,16 @@
 namespace tubecut::server {
 namespace {
 
-std::shared_ptr<Job> job(std::string client, double expected_s, const void* flow = nullptr) {
+std::shared_ptr<Job> job(std::string client, const void* flow = nullptr) {
   auto out = std::make_shared<Job>();
-  out->claim = {.client = std::move(client), .flow = flow, .expected_s = expected_s};
-  out->claim.quick = expected_s < 0.01;
+  out->claim = {.client = std::move(client), .flow = flow};
   return out;
 }
 
 TEST(FairQueue, IsFirstInFirstOutForOneFlow) {
   FairQueue queue;
   std::vector<std::shared_ptr<Job>> jobs;
-  for (int i = 0; i < 5; ++i) queue.push(jobs.emplace_back(job("a", 1.0)));
+  for (int i = 0; i < 5; ++i) queue.push(jobs.emplace_back(job("a")));
   for (const auto& expected : jobs) EXPECT_EQ(queue.pop(), expected);
   EXPECT_EQ(queue.pop(), nullptr);
 }
@@ -35,11 +35,10 @@ TEST(FairQueue, IsFirstInFirstOutForNewcomers) {
     std::vector<std::shared_ptr<Job>> waiting;
     for (std::size_t i = 0; i < flows.size(); ++i) {
       const auto name = clients ? std::to_string((i * 37) % 200) : std::string("one");
-      queue.push(waiting.emplace_back(job(name, 1.0, &flows.at((i * 83) % flows.size()))));
+      queue.push(waiting.emplace_back(job(name, &flows.at((i * 83) % flows.size()))));
       if (i < 100) continue;
       const auto next = queue.pop();
       ASSERT_EQ(next, waiting[i - 100]) << i;
-      queue.done(next->claim, 1.0);
     }
   }
 }
@@ -47,43 +46,27 @@ TEST(FairQueue, IsFirstInFirstOutForNewcomers) {
 /// However many jobs one client has waiting, another's next job is at most one turn away.
 TEST(FairQueue, ClientsShareSlotsFairly) {
   FairQueue queue;
-  for (int i = 0; i < 1000; ++i) queue.push(job("greedy", 1.0));
+  for (int i = 0; i < 1000; ++i) queue.push(job("greedy"));
   for (int round = 0; round < 20; ++round) {
-    const auto first = queue.pop();
-    queue.done(first->claim, 1.0);
-    const auto mine = job("modest", 1.0);
+    ASSERT_NE(queue.pop(), nullptr);
+    const auto mine = job("modest");
     queue.push(mine);
     auto next = queue.pop();
-    if (next != mine) {
-      queue.done(next->claim, 1.0);
-      next = queue.pop();
-    }
+    if (next != mine) next = queue.pop();
     ASSERT_EQ(next, mine) << round;
-    queue.done(next->claim, 1.0);
   }
 }
 
-/// Two clients who always have work share the time evenly, not the jobs, although the expected time
-/// of a job is wrong: neither is ahead of the other by more than the two longest jobs.
-TEST(FairQueue, SharesTimeNotJobs) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> off(0.2, 5.0);
-  for (int trial = 0; trial < 50; ++trial) {
-    FairQueue queue;
-    std::map<std::string, double> takes = {{"short", 0.1 * off(random)}, {"long", off(random)}};
-    std::map<std::string, double> had;
-    for (const auto& [name, seconds] : takes) {
-      for (int i = 0; i < 400; ++i) queue.push(job(name, seconds * off(random)));
-    }
-    double most = 0.0;
-    for (int i = 0; i < 300; ++i) {
-      const auto next = queue.pop();
-      const double took = takes.at(next->claim.client);
-      queue.done(next->claim, took);
-      had[next->claim.client] += took;
-      most = std::max(most, std::abs(had["short"] - had["long"]));
-    }
-    EXPECT_LE(most, 2.0 * 5.0 * takes["long"]) << trial;
+/// Clients with work at any time are served in turn, however much each of them has waiting.
+TEST(FairQueue, ServesClientsInTurn) {
+  FairQueue queue;
+  for (const auto* client : {"a", "b", "c"})
+    for (int i = 0; i < (*client == 'a' ? 300 : 100); ++i) queue.push(job(client));
+  std::map<std::string, int> had;
+  for (int i = 0; i < 300; ++i) {
+    ++had[queue.pop()->claim.client];
+    const auto [least, most] = std::minmax({had["a"], had["b"], had["c"]});
+    ASSERT_LE(most - least, 1) << i;
   }
 }
 
@@ -92,92 +75,53 @@ TEST(FairQueue, LetsFlowsOfAClientTakeTurns) {
   FairQueue queue;
   const int batch = 0;
   const int single = 0;
-  for (int i = 0; i < 100; ++i) queue.push(job("key", 1.0, &batch));
-  const auto first = queue.pop();
-  const auto mine = job("key", 1.0, &single);
+  for (int i = 0; i < 100; ++i) queue.push(job("key", &batch));
+  ASSERT_NE(queue.pop(), nullptr);
+  const auto mine = job("key", &single);
   queue.push(mine);
   const auto second = queue.pop();
   EXPECT_TRUE(second == mine || queue.pop() == mine);
-  queue.done(first->claim, 1.0);
-}
-
-TEST(FairQueue, FindsTheQuickBehindTheLong) {
-  FairQueue queue;
-  const int other = 0;
-  queue.push(job("a", 1.0));
-  EXPECT_EQ(queue.pop_quick(1.0), nullptr);
-  const auto quick = job("a", 0.001, &other);
-  queue.push(quick);
-  EXPECT_EQ(queue.pop_quick(1.0), quick);
-  EXPECT_EQ(queue.size(), 1U);
-  const auto later = job("a", 0.001, &other);
-  later->claim.since = 2.0;
-  queue.push(later);
-  EXPECT_EQ(queue.pop_quick(1.0), nullptr);
-}
-
-TEST(FairQueue, DelaysTrialsIfTheyCouldBlockKnownJobs) {
-  FairQueue queue;
-  const auto trial = job("new", 0.001), known = job("old", 0.001);
-  trial->claim.trial = true;
-  queue.push(trial);
-  queue.push(known);
-  EXPECT_EQ(queue.pop_quick(1.0, false), known);
-  EXPECT_EQ(queue.pop_quick(1.0, false), nullptr);
-  EXPECT_EQ(queue.pop_quick(1.0), trial);
 }
 
 TEST(FairQueue, GivesThePlaceOfWhoHasMostToWhoHasLess) {
   FairQueue queue;
   std::vector<std::shared_ptr<Job>> greedy;
-  for (int i = 0; i < 3; ++i) queue.push(greedy.emplace_back(job("greedy", 1.0)));
-  EXPECT_EQ(queue.give_way({.client = "greedy"}), nullptr);
-  EXPECT_EQ(queue.give_way({.client = "modest"}), greedy[2]);
-  queue.push(job("modest", 1.0));
-  EXPECT_EQ(queue.give_way({.client = "modest"}), nullptr);  // 2 against 1: no better turned round
+  for (int i = 0; i < 3; ++i) queue.push(greedy.emplace_back(job("greedy")));
+  EXPECT_EQ(queue.give_way("greedy"), nullptr);
+  EXPECT_EQ(queue.give_way("modest"), greedy[2]);
+  queue.push(job("modest"));
+  EXPECT_EQ(queue.give_way("modest"), nullptr);  // 2 against 1: no better turned round
 }
 
-TEST(FairQueue, ForetellsTheWaitOfEachClient) {
-  FairQueue queue;
-  for (int i = 0; i < 50; ++i) queue.push(job("greedy", 2.0));
-  EXPECT_DOUBLE_EQ(queue.before({.client = "greedy", .expected_s = 1.0}, false), 100.0);
-  EXPECT_LE(queue.before({.client = "modest", .expected_s = 0.1}, false), 0.1);
-  EXPECT_DOUBLE_EQ(queue.before({.client = "modest", .expected_s = 0.1}, true), 0.0);
-}
-
-TEST(FairQueue, ForgetsClientsWithoutJobs) {
+TEST(FairQueue, KeepsEveryJobThatIsNeitherPoppedNorRemoved) {
   FairQueue queue;
   std::mt19937 random(3);
   std::vector<std::shared_ptr<Job>> waiting;
-  std::vector<std::shared_ptr<Job>> running;
+  const std::array<int, 4> flows{};
   for (int step = 0; step < 20000; ++step) {
     switch (random() % 4) {
       case 0:
       case 1:
-        queue.push(waiting.emplace_back(job("c" + std::to_string(random() % 9), 0.1)));
+        queue.push(waiting.emplace_back(
+            job("c" + std::to_string(random() % 9), &flows.at(random() % flows.size()))));
         break;
       case 2:
-        if (auto next = queue.pop()) {
-          std::erase(waiting, next);
-          running.push_back(std::move(next));
+        if (const auto next = queue.pop()) {
+          ASSERT_EQ(std::erase(waiting, next), 1U);
+          EXPECT_FALSE(queue.remove(next));
         }
         break;
       default:
-        if (!waiting.empty() && random() % 3 == 0) {
+        if (!waiting.empty()) {
           const auto at = waiting.begin() + static_cast<long>(random() % waiting.size());
           EXPECT_TRUE(queue.remove(*at));
           waiting.erase(at);
-        } else if (!running.empty()) {
-          queue.done(running.back()->claim, 0.2);
-          running.pop_back();
         }
     }
     ASSERT_EQ(queue.size(), waiting.size());
   }
-  for (const auto& one : waiting) EXPECT_TRUE(queue.remove(one));
-  for (const auto& one : running) queue.done(one->claim, 0.1);
-  EXPECT_EQ(queue.size(), 0U);
-  EXPECT_DOUBLE_EQ(queue.before({.client = "c1", .expected_s = 1.0}, false), 0.0);
+  while (const auto next = queue.pop()) ASSERT_EQ(std::erase(waiting, next), 1U);
+  EXPECT_TRUE(waiting.empty());
 }
 
 TEST(MemoryShare, IsAlwaysReleased) {

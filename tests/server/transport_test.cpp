@@ -328,48 +328,25 @@ TEST(Transport, AnswersAcceptedWorkWhileDraining) {
   EXPECT_TRUE(port.join());
 }
 
-/// Computes for this time, because the mean of a kind is learnt from the CPU of its jobs.
-void compute_for(std::chrono::milliseconds time) {
-  const auto end = std::chrono::steady_clock::now() + time;
-  while (std::chrono::steady_clock::now() < end) {
-  }
-}
-
-std::string_view kind_of(const Request& request) {
-  if (request.target.starts_with("/long")) return "long";
-  return request.target.starts_with("/short") ? "short" : "catalogue";
-}
-
 Service service_of(std::function<Response(const Request&)> handle) {
   return {.handle = std::move(handle),
           .screen = [](const Request&) { return std::optional<Refusal>{}; },
           .max_body = [](std::string_view) { return std::size_t{1000}; },
-          .kind = kind_of,
+          .is_short = [](const Request& request) { return request.target != "/long"; },
           .budget = [](const Request&) { return Budget{.cpu = std::chrono::milliseconds(5000)}; }};
 }
 
-/// Runs a long job, so that the mean of its kind is learnt.
-void teach(const Port& port) { EXPECT_EQ(one(port, get("/longish")).substr(0, 3), "GET"); }
-
-/// Catalogues, and small jobs of a kind of which no job has finished yet.
-TEST(Transport, AnswersQuickJobsWhileLongOnesHoldEverySlot) {
-  std::atomic<bool> learnt = false;
+/// The long ones are of the same client.
+TEST(Transport, AnswersShortJobsWhileLongOnesHoldEverySlot) {
   std::promise<void> go;
   const auto gate = go.get_future().share();
   TransportOptions options;
   options.slots = 1;
   const Port port(service_of([&](const Request& request) {
-                    if (request.refusal) return echo(request);
-                    if (request.target.starts_with("/long") && !learnt) {
-                      compute_for(300ms);
-                    } else if (request.target.starts_with("/long")) {
-                      gate.wait();
-                    }
+                    if (!request.refusal && request.target == "/long") gate.wait();
                     return echo(request);
                   }),
                   options);
-  teach(port);
-  learnt = true;
   std::vector<std::unique_ptr<Client>> hogs;
   for (int i = 0; i < 8; ++i) {
     hogs.push_back(std::make_unique<Client>(port.number()));
@@ -377,65 +354,38 @@ TEST(Transport, AnswersQuickJobsWhileLongOnesHoldEverySlot) {
   }
   std::this_thread::sleep_for(100ms);
   int answered = 0;
-  for (int i = 0; i < 25; ++i) {
+  for (int i = 0; i < 50; ++i)
     answered += one(port, post("/short", "1")) == "POST /short 1" ? 1 : 0;
-    answered += one(port, get("/catalogue")) == "GET /catalogue " ? 1 : 0;
-  }
   go.set_value();
   EXPECT_EQ(answered, 50);
   EXPECT_EQ(hogs.front()->receive().status, 200);
 }
 
-/// Of one kind one client's jobs are long, another's are not: each goes by its own.
-TEST(Transport, AnswersAClientsQuickJobsWhileAnothersOfTheKindAreLong) {
+/// A job that waits for half of its budget is refused, but past long jobs cause no refusals.
+TEST(Transport, RefusesJobsThatWaitTooLongOnlyWhileLongOnesRun) {
   std::promise<void> go;
   const auto gate = go.get_future().share();
-  std::atomic<bool> learnt = false;
+  std::atomic<bool> begun = false;
   auto service = service_of([&](const Request& request) {
-    if (request.refusal || header(request.headers, "Who") != "hog") return echo(request);
-    if (learnt) {
-      gate.wait();
-    } else {
-      compute_for(300ms);
-    }
-    return echo(request);
-  });
-  service.client = [](const Request& request) {
-    return std::string(header(request.headers, "Who"));
-  };
-  service.kind = [](const Request&) { return std::string_view("one kind"); };
-  TransportOptions options;
-  options.slots = 1;
-  const Port port(std::move(service), options);
-  EXPECT_EQ(one(port, get("/long", "Who: hog\r\n")).substr(0, 3), "GET");
-  learnt = true;
-  std::vector<std::unique_ptr<Client>> hogs;
-  for (int i = 0; i < 8; ++i) {
-    hogs.push_back(std::make_unique<Client>(port.number()));
-    hogs.back()->send(get("/long", "Who: hog\r\n"));
-  }
-  std::this_thread::sleep_for(100ms);
-  int answered = 0;
-  for (int i = 0; i < 50; ++i)
-    answered += one(port, get("/short", "Who: other\r\n")) == "GET /short " ? 1 : 0;
-  go.set_value();
-  EXPECT_EQ(answered, 50);
-  EXPECT_EQ(hogs.front()->receive().status, 200);
-}
-
-/// Long jobs of the past must not cause refusals on an idle service. A job that would have to wait
-/// for a quarter of its budget is refused, and the long ones took three.
-TEST(Transport, PastLongJobsCauseNoRefusalsOnAnIdleService) {
-  auto service = service_of([](const Request& request) {
-    if (request.target.starts_with("/long")) compute_for(300ms);
+    if (request.refusal) return echo(request);
+    begun = true;
+    gate.wait();
     return echo(request);
   });
   service.budget = [](const Request&) { return Budget{.cpu = 400ms}; };
   TransportOptions options;
+  options.slots = 1;
   const Port port(std::move(service), options);
-  for (int i = 0; i < 6; ++i) teach(port);
-  for (int i = 0; i < 20; ++i) ASSERT_EQ(one(port, get("/short")), "GET /short ") << i;
-  teach(port);
+  Client first(port.number()), second(port.number());
+  first.send(get("/long"));
+  while (!begun) std::this_thread::sleep_for(1ms);
+  const auto sent = std::chrono::steady_clock::now();
+  second.send(get("/long"));
+  EXPECT_NE(second.receive().body.find("half of the job's budget"), std::string::npos);
+  EXPECT_GE(std::chrono::steady_clock::now() - sent, 200ms);
+  go.set_value();
+  EXPECT_EQ(first.receive().body, "GET /long ");
+  for (int i = 0; i < 20; ++i) ASSERT_EQ(one(port, get("/long")), "GET /long ") << i;
 }
 
 Response until_stopped(const Request& request, bool busy, std::chrono::milliseconds at_most) {
