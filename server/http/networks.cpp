@@ -27,6 +27,9 @@ std::optional<ip::address_v6> parse_address(const std::string& text) {
 
 std::optional<ip::network_v6> parse_network(const std::string& text) {
   if (const auto address = parse_address(text)) return ip::network_v6(*address, 128);
+  // Boost reads the length by atoi, which takes what does not fit for another number.
+  if (const auto slash = text.rfind('/'); slash == text.npos || text.size() - slash > 4)
+    return std::nullopt;
   Error error;
   const auto four = ip::make_network_v4(text, error);
   if (!error)
