@@ -36,5 +36,5 @@ export default defineConfig({
     chunkSizeWarningLimit: 3600, // web-ifc, which comes with the first IFC file
     rollupOptions: {input: {console: page('index.html'), docs: page('docs/index.html'), glossary: page('glossary/index.html')}},
   },
-  server: {proxy: {'/v1': service, '/openapi': service}, fs: {allow: [page('.'), page('../clients/import/src')]}},
+  server: {proxy: {'/v1': service, '/openapi': service}, fs: {allow: [page('.'), page('../clients/import/src'), page('../clients/check/src')]}},
 });

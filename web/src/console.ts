@@ -16,6 +16,7 @@ import {jobOf} from './recognise';
 import type {Contract} from './schema';
 import type {Program} from './program';
 import {ask, gone, Latest, path, type Answer, type Endpoint, type Example, type Machine, type Reply, type Tube} from './service';
+import {SecondOpinion} from './second_opinion';
 import {Watch} from './watch';
 
 const firstJob = {endpoint: 'bevel-tables', example: 'source-000-table-1'};
@@ -41,6 +42,7 @@ export class Console {
   readonly lost = signal<string | null>(null); // why the link in the address cannot be read
   readonly lostAs = signal('damaged');
   readonly reply = signal<Reply | undefined>(undefined);
+  readonly opinion = new SecondOpinion();
   readonly answer = signal<Answer | undefined>(undefined);
   readonly picture = signal<Picture | undefined>(undefined);
   readonly program = signal<Program | undefined>(undefined); // previewed, of the request as it is

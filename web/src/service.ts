@@ -31,6 +31,9 @@ export const holds = (check: Check) => check.value <= check.limit;
 export interface Reply {
   answer?: Answer;
   problem?: Problem;
+  /** Answer and request as they were sent, byte by byte: hashes are of these. */
+  text?: string;
+  sent?: string;
   milliseconds: number;
 }
 
@@ -64,11 +67,12 @@ export async function fetched<T>(address: string): Promise<T> {
 /** `signal` cancels it; then ignore the result. */
 export async function ask(endpoint: string, body: Json, signal?: AbortSignal): Promise<Reply> {
   const start = performance.now();
+  const sent = JSON.stringify(body);
   let reply: Response, text: string;
   try {
     reply = await fetch(path(endpoint), {
       method: 'POST',
-      body: JSON.stringify(body),
+      body: sent,
       headers: headed({'Content-Type': 'application/json', Accept: 'application/json'}),
       ...(signal ? {signal} : {}),
     });
@@ -80,7 +84,7 @@ export async function ask(endpoint: string, body: Json, signal?: AbortSignal): P
   const milliseconds = performance.now() - start;
   try {
     const json = JSON.parse(text) as Json;
-    if (reply.ok) return {answer: json as unknown as Answer, milliseconds};
+    if (reply.ok) return {answer: json as unknown as Answer, text, sent, milliseconds};
     return {problem: json as unknown as Problem, milliseconds};
   } catch {
     // for example a proxy's page

@@ -204,7 +204,7 @@ function checkPosition(scope: Scope, path: Path, omega: number, row: number, bia
   const [own, stated] = [axesOf(setup, moved(path, start, at('dz_mm'), at('db_deg') * RAD)), rowOf(path, row)];
   scope.most('mill_c', Math.abs(wrapped((stated.c - own.c) / RAD)), 2e-9, 'deg', where);
   for (const name of ['x', 'z'] as const) scope.same('mill_axes', stated[name], own[name], 2e-10 + 1e-12 * Math.abs(own[name]), 'mm', where);
-  scope.same('mill_b', stated.b / RAD, own.b / RAD, 2e-9, 'deg', where);
+  scope.most('mill_b', Math.abs(wrapped((stated.b - own.b) / RAD)), 2e-9, 'deg', where);
   const [n, pitch, reach] = [check.points, check.pitch_deg * RAD, Math.floor(check.window_deg / check.pitch_deg + 1e-9)];
   for (const [end, pose] of [
     ['_before_mm', start],
@@ -323,7 +323,7 @@ function checkSwept(scope: Scope, path: Path, stated: Numbers, chosen: number[])
   let deepest = Infinity;
   for (let deg = 0; deg < 360; deg += 1) {
     const ruling = deg * RAD;
-    const rows = motion.near(ruling, 3);
+    const rows = motion.near(ruling, 6);
     for (let k = 0; k < check.points; k += 1) {
       const point = surface.at(ruling, k / (check.points - 1));
       const value = motion.least(flank, ruling, point, rows);

@@ -174,7 +174,7 @@ function checkSides(scope: Scope, cut: Cut, made: Body, side: Side, R: number): 
     scope.covers(...['phi_deg', 'girth_mm', 'z_mm'].map((member) => `${name}/${member}`));
   }
   const welded = cut.partners.length > 0 && cut.setIn?.size !== cut.partners.length; // the weld of a set-in end is that of the hole
-  scope.same('weld', made['weld_mm'] as number, welded ? (made['length_mm'] as number) : 0, 1e-9 * (1 + R), 'mm');
+  scope.same('weld', made['weld_mm'] as number, welded ? (made['length_mm'] as number) : 0, 1e-11 * (1 + R), 'mm');
   scope.covers('weld_mm');
   if (cut.partners.length === 0) {
     scope.same('groove_volume', made['groove_mm3'] as number, 0, 0, 'mm3');
@@ -187,6 +187,10 @@ function checkSides(scope: Scope, cut: Cut, made: Body, side: Side, R: number): 
     for (const name of ['groove_deg', 'tau_deg', 'gamma_deg', 'flush_deg', 'b_raw_deg', 'b_required_deg', 'gap_mm', 'dz_per_branch_mm', 'cutter'])
       for (const value of points[name] ?? []) scope.same('square_end', value, 0, 1e-12, '', name);
     for (const value of points['dihedral_deg'] ?? []) scope.same('square_end', value, 90, 1e-12, 'deg');
+    return;
+  }
+  if (welded && cut.partners.length > 1) {
+    scope.not('groove_mm3', 'sections at the rows miss its corners between partners');
     return;
   }
   const own = welded ? grooveVolume(cut, side === 'start' ? made : mirrored(made)) : 0;
@@ -454,7 +458,7 @@ function checkMarks(scope: Scope, request: Body, result: Body, ends: {[side in S
         [mark['z_from_mm'], low],
         [mark['z_to_mm'], high],
       ] as const)
-        scope.same('marks', z as number, own, 1e-9 * (1 + Math.abs(own) / 1000), 'mm', mark.text);
+        scope.same('marks', z as number, own, 3e-10 * (1 + Math.abs(own) / 1000), 'mm', mark.text);
       scope.same('marks', phi, 0, 1e-9, 'deg', mark.text);
       continue;
     }
@@ -486,8 +490,8 @@ function checkMarks(scope: Scope, request: Body, result: Body, ends: {[side in S
         : step.what === 'hole'
           ? torch((hole?.['points'] ?? {}) as never, ['torch_z_mm', 'torch_z_inner_mm'])
           : torch(step.what === 'start' ? s : e, ['torch_inner_mm', 'torch_outer_mm']);
-    scope.same('sequence', step['z_from_mm'] as number, Math.min(...(z as number[])), 1e-9, 'mm', step.what);
-    scope.same('sequence', step['z_to_mm'] as number, Math.max(...(z as number[])), 1e-9, 'mm', step.what);
+    scope.same('sequence', step['z_from_mm'] as number, Math.min(...(z as number[])), 3e-10, 'mm', step.what);
+    scope.same('sequence', step['z_to_mm'] as number, Math.max(...(z as number[])), 3e-10, 'mm', step.what);
   }
   if (list(request['cutouts']).length > 0) scope.not('sequence', CUTOUTS);
   else scope.covers('sequence/*/z_from_mm', 'sequence/*/z_to_mm', 'sequence/*/index');

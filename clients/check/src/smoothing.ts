@@ -23,7 +23,7 @@ export function checkSmoothing(scope: Scope, cut: Cut, columns: Columns, result:
   const from = wanted(cut, columns);
   const limits = result['limits'] as {[name: string]: number} | undefined;
   const method = cut.smoothing['method'];
-  if (method === 'none') b.forEach((value, i) => scope.same('b_unsmoothed', value, from[i] as number, 1e-9, 'deg', `row ${i}`));
+  if (method === 'none' && !hasJump(result)) b.forEach((value, i) => scope.same('b_unsmoothed', value, from[i] as number, 1e-9, 'deg', `row ${i}`));
   if (method !== 'envelope') return;
   b.forEach((value, i) => scope.most('b_above_wanted', (from[i] as number) - value, 2e-9, 'deg', `row ${i}`));
   const [K, A] = limitsOf(scope, cut, limits, machine);

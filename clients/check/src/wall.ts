@@ -124,10 +124,7 @@ function toBeam(cut: Cut, rows: Row[], i: number, place: Place): number {
       sections.push(k);
       if (apart > window) break;
     }
-  // The two sections that come nearest in their middles, and the own one, are searched.
-  const near = sections.map((k): [number, number] => [off(k, 0.5), k]).sort((a, b) => a[0] - b[0]);
-  const chosen = new Set([i, ...near.slice(0, 2).map(([, k]) => k)]);
-  return Math.min(...[...chosen].map((k) => -highest((u) => -off(k, u), 0, 1, 2, 1e-2)[1]));
+  return Math.min(...[...new Set(sections)].map((k) => -highest((u) => -off(k, u), 0, 1, 2, 1e-2)[1]));
 }
 
 export interface TorchLine {
@@ -297,7 +294,7 @@ export function checkLength(
 }
 
 /** What the torch's range costs, where it binds: of the rule's B, and of root gap. */
-export function checkBinds(scope: Scope, cut: Cut, columns: Columns, binds: Body[]): void {
+export function checkBinds(scope: Scope, columns: Columns, binds: Body[]): void {
   const has = ['phi_deg', 'b_deg', 'b_raw_deg', 'gap_mm', 'tau_deg', 'gamma_deg'].every((name) => columns[name]);
   if (!has || !binds.length) return;
   const col = (name: string) => columns[name] as number[];

@@ -2,6 +2,9 @@
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {createHash} from 'node:crypto';
+import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
 import {test} from 'node:test';
 import {fileURLToPath} from 'node:url';
 import {sha256} from '../dist/json.js';
@@ -61,5 +64,20 @@ test('SHA-256 is that of others, at every length about a block', () => {
   for (const length of [0, 1, 55, 56, 63, 64, 65, 119, 120, 1000]) {
     const text = 'ä'.repeat(length >> 1) + 'x'.repeat(length % 2);
     assert.equal(sha256(text), createHash('sha256').update(text).digest('hex'));
+  }
+});
+
+test('the packed file is run by npx, offline, from any folder', () => {
+  const folder = mkdtempSync(join(tmpdir(), 'tubecut-check-'));
+  try {
+    const npm = (program, ...given) => spawnSync(program, given, {cwd: folder, encoding: 'utf8', env: {...process.env, npm_config_cache: join(folder, 'cache'), npm_config_update_notifier: 'false'}});
+    const packed = npm('npm', 'pack', '--silent', fileURLToPath(new URL('..', import.meta.url)));
+    assert.equal(packed.status, 0, packed.stderr);
+    writeFileSync(join(folder, 'answer.json'), JSON.stringify(flat()));
+    const {status, stdout, stderr} = npm('npx', '--offline', '--yes', `--package=./${packed.stdout.trim()}`, 'tubecut-check', 'answer.json');
+    assert.equal(status, 0, stderr);
+    assert.match(stdout, /all \d+ checks hold\n$/);
+  } finally {
+    rmSync(folder, {recursive: true});
   }
 });

@@ -126,7 +126,28 @@ const jobs = {
   'bevel-tables': 'source-000-table-1', 'holes': 'set-in-branch', 'pulse-schedules': 'square-cut-from-a-bare-contour',
   'feed-curves': 'cut-off-194-mm-whole-cycle', 'grooves': 'case-a-right-angle', 'frames': 'jacket-node-with-set-in-stubs',
 };
+/** The independent checker, in the page: of the answer as it was sent, so its hashes hold too. */
+async function secondOpinion({browser, origin}) {
+  const page = await open(browser, origin, '#/bevel-tables/source-000-table-1');
+  await answered(page);
+  for (const [width, height] of [[1280, 800], [390, 844]]) {
+    await page.setViewportSize({width, height});
+    await page.locator('#check-independently').click();
+    await page.locator('#opinion [data-passed]').waitFor();
+    assert.equal(await page.locator('#opinion [data-passed]').getAttribute('data-passed'), 'true', await page.locator('#opinion').innerText());
+    const rows = await page.locator('#opinion tbody tr').evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.innerText)));
+    for (const name of ['Input sha256', 'Result sha256', 'Request echo', 'Beam', 'Active partner', 'Length']) {
+      assert.ok(rows.some(([first, state]) => first === name && state === 'ok'), `${name}: ${JSON.stringify(rows)}`);
+    }
+    await page.locator('#opinion > button').click();
+    assert.equal(await page.locator('#opinion').count(), 0);
+  }
+  assert.deepEqual(page.faults, []);
+  await page.context().close();
+}
+
 export const checks = {
+  'the independent checker certifies the answer': secondOpinion,
   ...Object.fromEntries(Object.entries(jobs).map(([endpoint, name]) => [endpoint, (given) => downloads(given, endpoint, name)])),
   'named by reference and input': named,
   'a packet of a frame': packet,

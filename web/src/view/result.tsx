@@ -3,7 +3,7 @@ import type {Console} from '../console';
 import {endpointName} from '../names';
 import {without} from '../pictures/context';
 import {programmed} from '../pictures/programmed';
-import {away, path} from '../service';
+import {away, path, type Reply} from '../service';
 import {TabBar} from './controls';
 import {Downloads} from './downloads';
 import {Exchange} from './exchange';
@@ -14,6 +14,7 @@ import {useConsole} from './page';
 import {Player} from './player';
 import {Charts} from './plots';
 import {Columns, Proof} from './proof';
+import {Opinion} from './second_opinion';
 import {SectionView} from './section';
 import {Solid} from './solid';
 import {Figures, Table} from './tables';
@@ -29,7 +30,13 @@ export function Result() {
         {lost.value !== null ? (
           <Lost why={lost.value} as={console.lostAs.value} />
         ) : reply.value ? (
-          <Verdict reply={reply.value} focus={(pointer) => console.seek(pointer)} again={() => console.compute()} facts={said.value} />
+          <Verdict
+            reply={reply.value}
+            focus={(pointer) => console.seek(pointer)}
+            again={() => console.compute()}
+            facts={said.value}
+            check={() => void console.opinion.ask(reply.value as Reply)}
+          />
         ) : (
           <p class="waiting">Asking the service …</p>
         )}
@@ -37,6 +44,7 @@ export function Result() {
       <p id="trouble" role="alert" hidden={!trouble.value}>
         {trouble.value}
       </p>
+      <Opinion />
       <nav id="onward" aria-label="Go on to" hidden={!answer.value}>
         <Onward />
       </nav>

@@ -15,13 +15,15 @@ interface Given {
   again(): void;
   /** Facts about the cut. */
   facts?: string;
+  /** Has the independent checker look at the answer. */
+  check?: () => void;
 }
 /** Verdict, reasons and failed checks, or the problem: in plain sight above the pictures. */
-export function Verdict({reply: {answer, problem, milliseconds = 0}, focus, again, facts = ''}: Given) {
+export function Verdict({reply: {answer, problem, milliseconds = 0}, focus, again, facts = '', check}: Given) {
   if (problem?.code === away.code) return <Silence title={problem.title} detail={problem.action} again={again} />;
   if (problem?.code === 'unauthorized') return <Unlock key={tried()} go={again} />;
   if (problem) return <Refusal problem={problem} focus={focus} />;
-  return answer ? <Approval answer={answer} milliseconds={milliseconds} focus={focus} facts={facts} /> : null;
+  return answer ? <Approval answer={answer} milliseconds={milliseconds} focus={focus} facts={facts} check={check} /> : null;
 }
 
 interface Silent {
@@ -87,7 +89,14 @@ const meanings = {
 };
 const made = new Set(['bevel-tables', 'holes', 'parts', 'frames', 'pulse-schedules', 'mill-paths', 'replays']);
 
-function Approval({answer, milliseconds, focus, facts}: {answer: Answer; milliseconds: number; focus: Focus; facts: string}) {
+interface Approved {
+  answer: Answer;
+  milliseconds: number;
+  focus: Focus;
+  facts: string;
+  check: (() => void) | undefined;
+}
+function Approval({answer, milliseconds, focus, facts, check}: Approved) {
   const {status, reasons} = answer.verdict;
   const {passed, checks} = answer.verification;
   const failed = passed ? [] : checks.filter((check) => !holds(check));
@@ -109,7 +118,12 @@ function Approval({answer, milliseconds, focus, facts}: {answer: Answer; millise
         </span>
       </p>
       <p class="soft">
-        <span>{passed ? `${total} of ${total} checks of the answer passed` : `${Math.max(1, failed.length)} of ${total} checks failed`}</span>
+        <span>{passed ? `${total} of ${total} checks of the answer passed` : `${Math.max(1, failed.length)} of ${total} checks failed`}</span>{' '}
+        {check && (
+          <button type="button" id="check-independently" title="Recompute the answer in this browser by another program" onClick={check}>
+            Check independently
+          </button>
+        )}
         <span class="right">answered in {milliseconds.toFixed(0)} ms</span>
       </p>
       {grouped && <FrameWarnings warnings={warnings} />}

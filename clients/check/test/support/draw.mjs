@@ -1,4 +1,6 @@
 // Requests of everyday sizes, drawn from a seed.
+import {more} from './draw_more.mjs';
+
 export function random(seed) {
   let state = seed >>> 0;
   const next = () => {  // mulberry32
@@ -77,15 +79,18 @@ const drawers = {
     ],
     connect: {within_mm: 50}, include: ['profiles', 'tables'], sampling: {tolerance_mm: 0.05}, tables: options(r),
   }),
+  ...more(target, options),
 };
 
 export const endpoints = Object.keys(drawers);
+const slow = ['mill-paths', 'frames']; // to check: once in eight rounds
 
 /** {endpoint, request} without end, alternating between the endpoints. */
 export function* requests(seed, of = endpoints) {
   const r = random(seed);
-  for (let i = 0; ; i += 1) {
-    const endpoint = of[i % of.length];
-    yield {endpoint, request: JSON.parse(JSON.stringify(drawers[endpoint](r)))};
-  }
+  for (let round = 0; ; round += 1)
+    for (const endpoint of of) {
+      if (slow.includes(endpoint) && round % 8 !== 4) continue;
+      yield {endpoint, request: JSON.parse(JSON.stringify(drawers[endpoint](r)))};
+    }
 }

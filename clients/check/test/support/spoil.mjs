@@ -12,7 +12,25 @@ const accuracies = [
   [/events\/\*\/z_/, (_, {kind} = {}) => (kind === 'junction' ? 1e-10 : 1e-5)],
   [/fit_up\/(least_between_nodes|greatest_root_between_nodes)_mm$/, 1e-3],  // the check gap_stated
   [/smoothed_area\//, (v) => 1e-6 * (1 + v)],
-  [/(^|\/)(cutter|from|to)(\/\*)?$/, 0.1],  // indices: another one
+  [/(^|\/)(cutter|from|to|index)(\/\*)?$/, 0.1],  // indices: another one
+  [/^\/(counts|total|report\/peak)\/|^\/periods$/, 0.1],  // pulses and periods: another one
+  // feed-curves.md, 7: golden grids within 1e-12; extremes by a search
+  [/max_cylinder_(acceleration|jerk)|_error|ripple|drift|time_at_peak/, undefined],
+  [/^\/(work|table|cycle|tool|geometry)\//, (v) => 1e-9 * (1 + Math.abs(v))],
+  // grooves-and-milling.md
+  [/^\/swept.*root_face/, undefined],  // the deepest of sampled places
+  [/^\/swept/, 1e-6],  // the check swept
+  [/certificate_mm/, 1e-8],
+  [/standoff_growth|feed_at_peak|^\/report\/(?!time_s)/, undefined],
+  [/^\/(height_(min|max)|least_area)|ellipse_a|_mm3$/, undefined],  // found on sections; as large as the sine is small
+  [/_mm2(\/\*)?$/, 3e-7],
+  [/twist_deg/, 1e-5],
+  // pulse-schedules.md, 9: against the smoothed path
+  [/^\/(invariants|blind_spot)/, undefined],
+  // parts.md: 2.9e-12 mm of a part of some metres
+  [/mass_kg|volume_mm3|groove_mm3/, undefined],
+  [/members\/\*\/frame\/origin_mm|joints\/\*\/fit_up/, undefined],  // along its axis a part may stand anywhere within `alike_within_mm`
+  [/^\/(lengths|check_dimensions|cut_list|totals|sequence|marks)/, 3e-9],
   [/turns$/, undefined],
   [/placement\/.*_mm$|cut_by\/\*\/(gap|eccentricity)_mm$/, 3e-9],  // 1e-12 of the lengths involved
   [/overlaps\//, undefined],  // climbed to by halved steps, from the deepest of 624 places
