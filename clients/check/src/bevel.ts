@@ -73,15 +73,15 @@ interface Zone {
 
 /** Groove angle and root gap of a table of zones at a dihedral, in degrees, and the zone's name. */
 export function zoneAt(groove: Body, psi: number): {groove: number; gap: number; zone: string} | undefined {
-  const zones = (groove['zones'] as unknown as Zone[]).slice().sort((a, b) => a.dihedral_deg[0] - b.dihedral_deg[0]);
-  const half = ((groove['overlap_deg'] as number | undefined) ?? 0) / 2;
+  const zones = (groove.zones as unknown as Zone[]).slice().sort((a, b) => a.dihedral_deg[0] - b.dihedral_deg[0]);
+  const half = ((groove.overlap_deg as number | undefined) ?? 0) / 2;
   const held = (zone: Zone) => {
     const [[from, to], [first, second]] = [zone.dihedral_deg, zone.groove_deg];
     const t = to > from ? Math.min(1, Math.max(0, (psi - from) / (to - from))) : 0;
     return first + t * (second - first);
   };
   for (let i = 0; i + 1 < zones.length; i += 1) {
-    const [below, above] = [zones[i] as Zone, zones[i + 1] as Zone];
+    const [below, above] = [zones[i], zones[i + 1]];
     const [from, to] = [above.dihedral_deg[0] - half, below.dihedral_deg[1] + half];
     if (to <= from || psi < from || psi > to) continue;
     const w = (psi - from) / (to - from);
@@ -94,11 +94,11 @@ export function zoneAt(groove: Body, psi: number): {groove: number; gap: number;
 
 /** The groove angle that the rule wants at the dihedral, both in radians; of `square` there is B only. */
 export function grooveOf(groove: Body, psi: number): number | undefined {
-  switch (groove['rule']) {
+  switch (groove.rule) {
     case 'half_dihedral':
-      return Math.min(psi / 2, ((groove['cap_deg'] as number | undefined) ?? 45) * RAD);
+      return Math.min(psi / 2, ((groove.cap_deg as number | undefined) ?? 45) * RAD);
     case 'fixed':
-      return (groove['angle_deg'] as number) * RAD;
+      return (groove.angle_deg as number) * RAD;
     case 'none':
       return 0;
     case 'zones': {
@@ -143,11 +143,11 @@ export function checkRows(scope: Scope, cut: Cut, rows: Columns, zones: string[]
     scope.not('points', 'columns are left out');
     return;
   }
-  const face = rows['z_face_mm'] && cut.face > 0 ? cut.face : 0;
+  const face = rows.z_face_mm && cut.face > 0 ? cut.face : 0;
   const weldSide = cut.dihedral === 'weld_side';
   const steep = Math.max(0, ...col('b_deg').map((b) => Math.abs(Math.tan(b * RAD))));
   for (let i = 0; i < col('phi_deg').length; i += 1) {
-    const at = (name: string) => col(name)[i] as number;
+    const at = (name: string) => col(name)[i];
     const phi = at('phi_deg') * RAD;
     const [zi, zo, b] = [at('z_inner_mm'), at('z_outer_mm'), at('b_deg') * RAD];
     const where = `row ${i}`;
@@ -204,9 +204,9 @@ export function checkRows(scope: Scope, cut: Cut, rows: Columns, zones: string[]
     }
     if (!has('groove_deg', 'tau_deg', 'b_raw_deg')) continue;
     scope.same('tau', at('tau_deg'), 90 - psi / RAD + at('groove_deg'), loose, 'deg', where);
-    const wanted = cut.setIn?.has(by) && cut.groove['rule'] !== 'square' ? 0 : grooveOf(cut.groove, psi);
+    const wanted = cut.setIn?.has(by) && cut.groove.rule !== 'square' ? 0 : grooveOf(cut.groove, psi);
     if (wanted !== undefined) scope.same('groove', at('groove_deg'), wanted / RAD, loose, 'deg', where);
-    if (zones && cut.groove['rule'] === 'zones') {
+    if (zones && cut.groove.rule === 'zones') {
       const {zone} = zoneAt(cut.groove, psi / RAD) ?? {zone: ''};
       scope.equal('zone', zones[i], zone, where);
     }

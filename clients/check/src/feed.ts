@@ -18,15 +18,15 @@ interface Linkage {
 const num = (v: unknown, otherwise = 0): number => (typeof v === 'number' ? v : otherwise);
 
 function linkageOf(request: Body, k: number): Linkage {
-  const l = request['linkage'] as Numbers;
-  const [distance, offset] = [l['pivot_distance_mm'] as number, l['pivot_offset_mm'] as number];
+  const l = request.linkage as Numbers;
+  const [distance, offset] = [l.pivot_distance_mm, l.pivot_offset_mm];
   return {
-    arm: l['arm_mm'] as number,
+    arm: l.arm_mm,
     distance,
     offset,
     gamma: Math.acos(offset / distance),
-    rest: l['rest_angle_rad'] ?? (num(l['rest_angle_deg']) * Math.PI) / 180,
-    alpha: l['slot_angle_rad'] ?? (num(l['slot_angle_deg']) * Math.PI) / 180,
+    rest: l.rest_angle_rad ?? (num(l.rest_angle_deg) * Math.PI) / 180,
+    alpha: l.slot_angle_rad ?? (num(l.slot_angle_deg) * Math.PI) / 180,
     k,
   };
 }
@@ -67,23 +67,23 @@ function rates(l: Linkage, x: number): [number, number] {
 const third = (l: Linkage, x: number): number => (rates(l, x + 1e-3)[1] - rates(l, x - 1e-3)[1]) / 2e-3;
 
 export function checkFeed(scope: Scope, request: Body, result: Body): void {
-  const [geometry, work, table] = [result['geometry'] as Numbers, result['work'] as Numbers, result['table'] as unknown as {[name: string]: number[]}];
-  const given = request['linkage'] as Body;
-  const l = linkageOf(request, geometry['rad_per_mm'] as number);
-  const at = (name: string) => work[name] as number;
-  if (typeof given['rad_per_mm'] === 'number') scope.same('linkage', geometry['rad_per_mm'] as number, given['rad_per_mm'], 1e-15, '');
+  const [geometry, work, table] = [result.geometry as Numbers, result.work as Numbers, result.table as unknown as {[name: string]: number[]}];
+  const given = request.linkage as Body;
+  const l = linkageOf(request, geometry.rad_per_mm);
+  const at = (name: string) => work[name];
+  if (typeof given.rad_per_mm === 'number') scope.same('linkage', geometry.rad_per_mm, given.rad_per_mm, 1e-15, '');
   else {
-    const pair = given['calibrate'] as Numbers;
-    scope.same('calibration', feedAt(l, pair['stroke_mm'] as number), pair['feed_mm'] as number, 1e-9 * (1 + Math.abs(pair['feed_mm'] as number)), 'mm');
+    const pair = given.calibrate as Numbers;
+    scope.same('calibration', feedAt(l, pair.stroke_mm), pair.feed_mm, 1e-9 * (1 + Math.abs(pair.feed_mm)), 'mm');
   }
   const v = at('feed_mm_s');
-  const cut = request['cut'] as Numbers;
-  const start = cut['start_feed_mm'] ?? num(cut['clearance_mm']) - num(cut['slowdown_mm']);
-  const end = cut['end_feed_mm'] ?? num(cut['clearance_mm']) + num(cut['wall_mm']) + num(cut['overcut_mm']);
+  const cut = request.cut as Numbers;
+  const start = cut.start_feed_mm ?? num(cut.clearance_mm) - num(cut.slowdown_mm);
+  const end = cut.end_feed_mm ?? num(cut.clearance_mm) + num(cut.wall_mm) + num(cut.overcut_mm);
   const fine = 1e-10 * (1 + Math.abs(start) + Math.abs(end));
   scope.same('work_feed', at('start_feed_mm'), start, fine, 'mm');
   scope.same('work_feed', at('end_feed_mm'), end, fine, 'mm');
-  scope.same('work_feed', v, cut['feed_mm_s'] as number, fine, 'mm/s');
+  scope.same('work_feed', v, cut.feed_mm_s, fine, 'mm/s');
   scope.same('work_time', at('duration_s') * v, end - start, fine, 'mm');
   for (const side of ['start', 'end'])
     scope.same('work_stroke', at(`${side}_stroke_mm`), strokeAt(l, at(`${side}_feed_mm`)), 1e-9 * (1 + Math.abs(at(`${side}_stroke_mm`))), 'mm');
@@ -94,12 +94,12 @@ export function checkFeed(scope: Scope, request: Body, result: Body): void {
   scope.same('work_speed', at('min_cylinder_speed_mm_s') / -extreme((x) => -speed(x))[1], 1, 1e-9, '');
   scope.same('work_acceleration', at('max_cylinder_acceleration_mm_s2') / extreme((x) => Math.abs(v * v * rates(l, x)[1]))[1], 1, 1e-3, '');
   scope.same('work_jerk', at('max_cylinder_jerk_mm_s3') / extreme((x) => Math.abs(v ** 3 * third(l, x)))[1], 1, 1e-3, '');
-  if (work['time_at_peak_s'] !== undefined) scope.same('work_peak', start + v * (work['time_at_peak_s'] as number), peak, 1e-5 * (end - start), 'mm');
+  if (work.time_at_peak_s !== undefined) scope.same('work_peak', start + v * work.time_at_peak_s, peak, 1e-5 * (end - start), 'mm');
   scope.covers('geometry/rad_per_mm', ...Object.keys(work).map((name) => `work/${name}`));
-  (table['t_s'] as number[]).forEach((t, i) => {
+  table.t_s.forEach((t, i) => {
     const [x, where] = [start + v * t, `row ${i}`];
     const [g1, g2] = rates(l, x);
-    const row = (name: string) => (table[name] as number[])[i] as number;
+    const row = (name: string) => table[name][i];
     scope.same('table_feed', row('feed_mm'), x, 1e-10 * (1 + Math.abs(x)), 'mm', where);
     scope.same('table_stroke', row('stroke_mm'), strokeAt(l, x), 1e-10 * (1 + Math.abs(row('stroke_mm'))), 'mm', where);
     scope.same('table_inverse', feedAt(l, row('stroke_mm')), x, 1e-10 * (1 + Math.abs(x) + l.offset), 'mm', where);
@@ -107,19 +107,19 @@ export function checkFeed(scope: Scope, request: Body, result: Body): void {
     scope.same('table_acceleration', row('cylinder_acceleration_mm_s2'), v * v * g2, 1e-10 * (1 + Math.abs(v * v * g2)), 'mm/s2', where);
   });
   scope.covers(...Object.keys(table).map((name) => `table/${name}`));
-  checkFit(scope.under('fit'), result['fit'] as Body, (t) => speed(start + v * t), l, start, v);
-  for (const fit of (result['comparison'] ?? []) as Body[]) checkFit(scope.under('comparison/*'), fit, (t) => speed(start + v * t), l, start, v);
+  checkFit(scope.under('fit'), result.fit as Body, (t) => speed(start + v * t), l, start, v);
+  for (const fit of (result.comparison ?? []) as Body[]) checkFit(scope.under('comparison/*'), fit, (t) => speed(start + v * t), l, start, v);
   checkGeometry(scope, l, geometry);
-  if (result['cycle']) checkCycle(scope.under('cycle'), request, work, result['cycle'] as Numbers, l);
-  if (result['tool']) checkTool(scope.under('tool'), request, result['tool'] as Numbers, v, num((result['fit'] as Numbers)['tool_ripple']));
+  if (result.cycle) checkCycle(scope.under('cycle'), request, work, result.cycle as Numbers, l);
+  if (result.tool) checkTool(scope.under('tool'), request, result.tool as Numbers, v, num((result.fit as Numbers).tool_ripple));
 }
 
 /** The plate's elevation at rest and its height on the rod; the strokes at which its tangent has its poles. */
 function checkGeometry(scope: Scope, l: Linkage, geometry: Numbers): void {
   const lean = Math.PI - l.alpha - slot(l, l.rest);
   const rest = Math.atan(Math.tan(lean));
-  scope.same('linkage', (geometry['slot_elevation_deg'] as number) * (Math.PI / 180), rest, 1e-11, 'rad');
-  scope.same('linkage', geometry['rod_height_mm'] as number, l.offset * Math.tan(rest), 1e-11 * l.offset * (1 + Math.tan(rest) ** 2), 'mm');
+  scope.same('linkage', geometry.slot_elevation_deg * (Math.PI / 180), rest, 1e-11, 'rad');
+  scope.same('linkage', geometry.rod_height_mm, l.offset * Math.tan(rest), 1e-11 * l.offset * (1 + Math.tan(rest) ** 2), 'mm');
   scope.covers('geometry/slot_elevation_deg', 'geometry/rod_height_mm');
   if (l.arm <= l.distance) return; // the range ends where the slot is tangent to the arm's circle
   for (const [name, pole] of [
@@ -128,10 +128,10 @@ function checkGeometry(scope: Scope, l: Linkage, geometry: Numbers): void {
   ] as const) {
     const beta = Math.PI - l.alpha - (pole * Math.PI) / 2;
     const own = (beta + Math.asin((l.distance / l.arm) * Math.sin(l.gamma - beta)) - l.rest) / l.k;
-    scope.same('stroke_limits', geometry[name] as number, own, 1e-9 * (1 + Math.abs(own)), 'mm', name);
+    scope.same('stroke_limits', geometry[name], own, 1e-9 * (1 + Math.abs(own)), 'mm', name);
     scope.covers(`geometry/${name}`);
   }
-  const peak = geometry['feed_at_peak_mm'];
+  const peak = geometry.feed_at_peak_mm;
   if (peak === undefined) return;
   const speed = (x: number) => rates(l, x)[0];
   scope.same('peak_feed', rates(l, peak)[1] / (speed(peak) / l.offset), 0, 1e-8, '');
@@ -140,40 +140,39 @@ function checkGeometry(scope: Scope, l: Linkage, geometry: Numbers): void {
 
 /** Times and places of a cycle that follow from each other and from the linkage. */
 function checkCycle(scope: Scope, request: Body, work: Numbers, cycle: Numbers, l: Linkage): void {
-  const asked = request['cycle'] as Numbers;
-  const at = (name: string) => cycle[name] as number;
+  const asked = request.cycle as Numbers;
+  const at = (name: string) => cycle[name];
   const same = (name: string, own: number, fine = 1e-10) => {
     scope.same('cycle', at(name), own, fine * (1 + Math.abs(own)), '', name);
     scope.covers(name);
   };
-  const v = work['feed_mm_s'] as number;
-  same('work_end_s', at('work_start_s') + (work['duration_s'] as number));
+  const v = work.feed_mm_s;
+  same('work_end_s', at('work_start_s') + work.duration_s);
   scope.covers('work_start_s');
-  same('cycle_s', at('end_s') + num(asked['handling_s']));
+  same('cycle_s', at('end_s') + num(asked.handling_s));
   scope.covers('end_s');
   same('pieces_per_hour', 3600 / at('cycle_s'));
   same('stop_feed_mm', feedAt(l, at('stop_stroke_mm')));
   scope.covers('stop_stroke_mm');
-  same('overshoot_mm', at('stop_feed_mm') - (work['end_feed_mm'] as number));
+  same('overshoot_mm', at('stop_feed_mm') - work.end_feed_mm);
   for (const [side, x] of [
-    ['in', work['start_feed_mm'] as number],
-    ['out', work['end_feed_mm'] as number],
+    ['in', work.start_feed_mm],
+    ['out', work.end_feed_mm],
   ] as const) {
     same(`speed_${side}_mm_s`, v * rates(l, x)[0], 1e-9);
     same(`acceleration_step_${side}_mm_s2`, Math.abs(v * v * rates(l, x)[1]), 1e-9);
   }
-  for (const way of ['approach', 'return'])
-    scope.most('cycle_speed', at(`${way}_peak_mm_s`), (asked['max_cylinder_speed_mm_s'] as number) * (1 + 1e-9), 'mm/s');
-  const target = asked['target_per_hour'];
-  if (target && cycle['estimated_feed_mm_s'] !== undefined) {
-    const left = 3600 / target - (at('cycle_s') - (work['duration_s'] as number));
-    same('estimated_feed_mm_s', ((work['end_feed_mm'] as number) - (work['start_feed_mm'] as number)) / left, 1e-9);
+  for (const way of ['approach', 'return']) scope.most('cycle_speed', at(`${way}_peak_mm_s`), asked.max_cylinder_speed_mm_s * (1 + 1e-9), 'mm/s');
+  const target = asked.target_per_hour;
+  if (target && cycle.estimated_feed_mm_s !== undefined) {
+    const left = 3600 / target - (at('cycle_s') - work.duration_s);
+    same('estimated_feed_mm_s', (work.end_feed_mm - work.start_feed_mm) / left, 1e-9);
   }
 }
 
 /** A polynomial's three forms are one, and its errors are what they are stated to be. */
 function checkFit(scope: Scope, fit: Body, speed: (t: number) => number, l: Linkage, start: number, v: number): void {
-  const T = fit['duration_s'] as number;
+  const T = fit.duration_s as number;
   const [chebyshev, scaled, seconds, rounded] = ['chebyshev', 'scaled', 'seconds', 'seconds_rounded'].map((name) => fit[name] as number[]) as [
     number[],
     number[],
@@ -182,7 +181,7 @@ function checkFit(scope: Scope, fit: Body, speed: (t: number) => number, l: Link
   ];
   const power = (list: number[], x: number) => list.reduceRight((sum, c) => sum * x + c, 0);
   const series = (u: number) => chebyshev.reduce((sum, c, n) => sum + c * Math.cos(n * Math.acos(Math.min(1, Math.max(-1, u)))), 0);
-  const size = Math.abs(chebyshev[0] as number);
+  const size = Math.abs(chebyshev[0]);
   // As many places as coefficients, one more: any coefficient that is off shows at one of them.
   for (let i = 0; i <= chebyshev.length; i += 1) {
     const t = (T * i) / chebyshev.length;
@@ -190,10 +189,10 @@ function checkFit(scope: Scope, fit: Body, speed: (t: number) => number, l: Link
     scope.same('fit_forms', power(scaled, u), series(u), 1e-11 * size, 'mm/s', `t ${t}`);
     scope.same('fit_forms', power(seconds, t), series(u), 1e-11 * size, 'mm/s', `t ${t}`);
   }
-  scope.equal('fit_degree', [scaled.length, seconds.length, rounded.length, chebyshev.length], Array(4).fill((fit['degree'] as number) + 1));
-  const digits = fit['digits'] as number;
+  scope.equal('fit_degree', [scaled.length, seconds.length, rounded.length, chebyshev.length], Array(4).fill((fit.degree as number) + 1));
+  const digits = fit.digits as number;
   rounded.forEach((c, i) =>
-    scope.same('fit_rounded', c, Number((seconds[i] as number).toPrecision(digits)), Math.abs(c) * 10 ** -Math.min(digits, 14) * 3.1 + 1e-300, '', i),
+    scope.same('fit_rounded', c, Number(seconds[i].toPrecision(digits)), Math.abs(c) * 10 ** -Math.min(digits, 14) * 3.1 + 1e-300, '', i),
   );
   const worst = (f: (t: number) => number) => highest((t) => Math.abs(f(t)), 0, T, 600)[1];
   const off = (p: (t: number) => number) => (t: number) => p(t) / speed(t) - 1;
@@ -215,20 +214,15 @@ function checkFit(scope: Scope, fit: Body, speed: (t: number) => number, l: Link
     2e-3,
     1e-9,
   );
-  scope.same('fit_end_drift', fit['end_drift_mm'] as number, feed(T) - start - v * T, 1e-9 * (1 + v * T), 'mm');
-  scope.same('fit_end_drift', fit['cylinder_end_drift_mm'] as number, stroke(T) - strokeAt(l, start + v * T), 1e-9 * (1 + v * T), 'mm');
+  scope.same('fit_end_drift', fit.end_drift_mm as number, feed(T) - start - v * T, 1e-9 * (1 + v * T), 'mm');
+  scope.same('fit_end_drift', fit.cylinder_end_drift_mm as number, stroke(T) - strokeAt(l, start + v * T), 1e-9 * (1 + v * T), 'mm');
   scope.covers('chebyshev', 'scaled', 'seconds', 'seconds_rounded', 'duration_s', 'degree', 'digits');
   scope.covers('max_relative_error', 'rounded_max_relative_error', 'tool_position_error_mm', 'tool_ripple', 'end_drift_mm', 'cylinder_end_drift_mm');
 }
 
 function checkTool(scope: Scope, request: Body, found: Numbers, v: number, ripple: number): void {
-  const [tool, tube, cut] = [request['tool'] as Numbers, request['tube'] as Numbers | undefined, request['cut'] as Numbers];
-  const [n, blades, r, kerf] = ['disc_rev_min', 'blades', 'corner_radius_mm', 'kerf_mm'].map((name) => tool[name] as number) as [
-    number,
-    number,
-    number,
-    number,
-  ];
+  const [tool, tube, cut] = [request.tool as Numbers, request.tube as Numbers | undefined, request.cut as Numbers];
+  const [n, blades, r, kerf] = ['disc_rev_min', 'blades', 'corner_radius_mm', 'kerf_mm'].map((name) => tool[name]) as [number, number, number, number];
   const turn = (60 * v) / n;
   const expected: {[name: string]: number | undefined} = {
     feed_per_revolution_mm: turn,
@@ -238,7 +232,7 @@ function checkTool(scope: Scope, request: Body, found: Numbers, v: number, rippl
     roughness_um: (1000 * (turn / blades) ** 2) / (8 * r),
     roughness_one_blade_um: (1000 * turn ** 2) / (8 * r),
   };
-  const [D, t] = [tube?.['outer_diameter_mm'], tube?.['wall_mm'] ?? cut['wall_mm']];
+  const [D, t] = [tube?.outer_diameter_mm, tube?.wall_mm ?? cut.wall_mm];
   if (D !== undefined && t !== undefined) {
     const area = Math.PI * t * (D - t);
     Object.assign(expected, {

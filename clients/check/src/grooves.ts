@@ -18,20 +18,20 @@ export interface Joint {
 }
 
 export function jointOf(request: Body): Joint {
-  const [chord, branch, face] = [request['chord'] as Numbers, request['branch'] as Numbers, request['root_face'] as Numbers];
-  const r = (branch['outer_diameter_mm'] as number) / 2;
-  const inner = r - (branch['wall_mm'] as number);
-  const H = (branch['wall_mm'] as number) - (face['width_mm'] as number);
+  const [chord, branch, face] = [request.chord as Numbers, request.branch as Numbers, request.root_face as Numbers];
+  const r = branch.outer_diameter_mm / 2;
+  const inner = r - branch.wall_mm;
+  const H = branch.wall_mm - face.width_mm;
   return {
-    R: (chord['outer_diameter_mm'] as number) / 2,
+    R: chord.outer_diameter_mm / 2,
     r,
-    rho: inner + (face['width_mm'] as number),
+    rho: inner + face.width_mm,
     H,
     width: 2 * H,
-    a: (request['inclination_deg'] as number) * RAD,
-    ecc: (request['eccentricity_mm'] as number | undefined) ?? 0,
+    a: (request.inclination_deg as number) * RAD,
+    ecc: (request.eccentricity_mm as number | undefined) ?? 0,
     inner,
-    face: face['height_mm'] as number,
+    face: face.height_mm,
   };
 }
 
@@ -90,20 +90,19 @@ export function areaOf(j: Joint, filler: Numbers): number {
 
 export function checkGroove(scope: Scope, request: Body, result: Body): void {
   const j = jointOf(request);
-  const rows = result['sections'] as unknown as Table;
-  const axial = (request['area_in'] ?? 'axial') === 'axial';
-  const area = result['filler_area_mm2'] as number;
+  const rows = result.sections as unknown as Table;
+  const axial = (request.area_in ?? 'axial') === 'axial';
+  const area = result.filler_area_mm2 as number;
   const fine = 5e-11 * (1 + j.R / 100);
-  const filler = request['filler'] as Numbers;
-  if (filler['area_mm2'] !== undefined) scope.same('filler', area, filler['area_mm2'], 1e-9, 'mm2');
-  else if (axial)
-    scope.same('filler', heightOf(j, sectionAt(j, (filler['at_deg'] ?? 0) * RAD), area), filler['height_mm'] as number, 1e-9 * (1 + j.R / 100), 'mm');
-  const curves = result['curves'] as unknown as {[name: string]: Table};
-  (rows['omega_deg'] as number[]).forEach((deg, i) => {
-    const at = (name: string) => (rows[name] as number[])[i] as number;
+  const filler = request.filler as Numbers;
+  if (filler.area_mm2 !== undefined) scope.same('filler', area, filler.area_mm2, 1e-9, 'mm2');
+  else if (axial) scope.same('filler', heightOf(j, sectionAt(j, (filler.at_deg ?? 0) * RAD), area), filler.height_mm, 1e-9 * (1 + j.R / 100), 'mm');
+  const curves = result.curves as unknown as {[name: string]: Table};
+  rows.omega_deg.forEach((deg, i) => {
+    const at = (name: string) => rows[name][i];
     const [omega, where] = [deg * RAD, `section ${i}`];
     const own = sectionAt(j, omega);
-    scope.same('omega', deg, (360 * i) / (rows['omega_deg'] as number[]).length, 1e-10, 'deg', where);
+    scope.same('omega', deg, (360 * i) / rows.omega_deg.length, 1e-10, 'deg', where);
     scope.same('phi', at('phi_deg'), (((deg + 270) % 360) + 360) % 360, 1e-9, 'deg', where);
     const h = at('height_mm');
     for (const [name, value] of [
@@ -132,11 +131,9 @@ export function checkGroove(scope: Scope, request: Body, result: Body): void {
       ['c3', j.rho, own.y1],
       ['c4', j.r, own.y1 + h],
     ] as const) {
-      const curve = curves[name] as Table;
+      const curve = curves[name];
       const point: V3 = [-s * Math.sin(omega), s * Math.cos(omega), z];
-      (['x_mm', 'y_mm', 'z_mm'] as const).forEach((axis, k) =>
-        scope.same('curves', (curve[axis] as number[])[i] as number, point[k] as number, 3 * fine, 'mm', `${where} ${name}`),
-      );
+      (['x_mm', 'y_mm', 'z_mm'] as const).forEach((axis, k) => scope.same('curves', curve[axis][i], point[k], 3 * fine, 'mm', `${where} ${name}`));
     }
   });
   scope.covers(
@@ -148,7 +145,7 @@ export function checkGroove(scope: Scope, request: Body, result: Body): void {
   );
   for (const name of ['c1', 'c2', 'c3', 'c4']) scope.covers(...['x_mm', 'y_mm', 'z_mm'].map((axis) => `curves/${name}/${axis}`));
   scope.covers('filler_area_mm2');
-  if (axial) checkWhole(scope, j, result, rows, area, (request['compare'] as Numbers | undefined)?.['bevel_deg']);
+  if (axial) checkWhole(scope, j, result, rows, area, (request.compare as Numbers | undefined)?.bevel_deg);
 }
 
 /** Figures of the whole turn, by 720 sections of our own. */
@@ -156,10 +153,10 @@ function checkWhole(scope: Scope, j: Joint, result: Body, rows: Table, area: num
   const count = 720;
   const all = Array.from({length: count}, (_, i) => sectionAt(j, (2 * Math.PI * i) / count));
   const heights = all.map((section) => heightOf(j, section, area));
-  const z = (i: number) => (all[(i + count) % count] as Section).y1;
+  const z = (i: number) => all[(i + count) % count].y1;
   const slope = (list: (i: number) => number, i: number) => ((list(i + 1) - list(i - 1)) * 8 - (list(i + 2) - list(i - 2))) / ((12 * 2 * Math.PI) / count);
   const length = all.reduce((sum, _, i) => sum + Math.hypot(j.rho, slope(z, i)), 0) * ((2 * Math.PI) / count);
-  scope.same('weld_length', (result['weld_length_mm'] as number) / length, 1, 2e-7, '');
+  scope.same('weld_length', (result.weld_length_mm as number) / length, 1, 2e-7, '');
   for (const [name, own] of [
     ['height_min_mm', Math.min(...heights)],
     ['height_max_mm', Math.max(...heights)],
@@ -169,31 +166,24 @@ function checkWhole(scope: Scope, j: Joint, result: Body, rows: Table, area: num
     scope.most('heights_bound', Math.max(...heights.map((h) => (name === 'height_min_mm' ? -h : h))) - side, 1e-9 * (1 + own), 'mm', name);
   }
   const least = Math.max(...all.map((section) => fillerOf(j, section, 0)));
-  scope.same('least_area', result['least_area_mm2'] as number, least, 1e-4 * (1 + least), 'mm2');
+  scope.same('least_area', result.least_area_mm2 as number, least, 1e-4 * (1 + least), 'mm2');
   const volume = (h: (i: number) => number) =>
     all.reduce((sum, section, i) => sum + momentOf(j, section, (2 * Math.PI * i) / count, h(i)), 0) * ((2 * Math.PI) / count);
-  scope.same('filler_volume', (result['filler_volume_mm3'] as number) / volume((i) => heights[i] as number), 1, 2e-6, '');
-  (rows['omega_deg'] as number[]).forEach((deg, i) => {
+  scope.same('filler_volume', (result.filler_volume_mm3 as number) / volume((i) => heights[i]), 1, 2e-6, '');
+  rows.omega_deg.forEach((deg, i) => {
     const omega = deg * RAD;
     const own = twistAt(j, omega, (at) => heightOf(j, sectionAt(j, at), area));
-    scope.same('twist', (rows['twist_deg'] as number[])[i] as number, own / RAD, 1e-5, 'deg', `section ${i}`);
+    scope.same('twist', rows.twist_deg[i], own / RAD, 1e-5, 'deg', `section ${i}`);
   });
   scope.covers('weld_length_mm', 'height_min_mm', 'height_max_mm', 'least_area_mm2', 'filler_volume_mm3', 'sections/twist_deg');
-  const compare = result['compare'] as Body | undefined;
+  const compare = result.compare as Body | undefined;
   if (!compare) return;
-  const h = compare['height_mm'] as number;
+  const h = compare.height_mm as number;
   scope.same('compare_height', h, j.H * Math.tan((bevel as number) * RAD), 1e-10 * (1 + j.H), 'mm');
-  (compare['filler_area_mm2'] as number[]).forEach((found, i) => {
-    scope.same(
-      'compare_area',
-      found,
-      fillerOf(j, sectionAt(j, ((rows['omega_deg'] as number[])[i] as number) * RAD), h),
-      1e-9 * (1 + found),
-      'mm2',
-      `section ${i}`,
-    );
+  (compare.filler_area_mm2 as number[]).forEach((found, i) => {
+    scope.same('compare_area', found, fillerOf(j, sectionAt(j, rows.omega_deg[i] * RAD), h), 1e-9 * (1 + found), 'mm2', `section ${i}`);
   });
-  scope.same('compare_volume', (compare['filler_volume_mm3'] as number) / volume(() => h), 1, 2e-6, '');
+  scope.same('compare_volume', (compare.filler_volume_mm3 as number) / volume(() => h), 1, 2e-6, '');
   scope.covers('compare/height_mm', 'compare/filler_area_mm2', 'compare/filler_volume_mm3');
 }
 

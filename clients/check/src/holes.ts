@@ -34,13 +34,13 @@ export function numbersOf(point: V3, d: V3): {a: number; b: number; s: number; h
 }
 
 export function holeOf(request: Body, chord: Size, sizes: ReadonlyMap<string, Size>): Hole {
-  const branch = request['branch'] as Body;
-  const joint = request['joint'] as Body;
+  const branch = request.branch as Body;
+  const joint = request.joint as Body;
   const size = sizeOf(branch, sizes);
   const [point, along] = axisOf(branch);
   const {q, ...placement} = numbersOf(point, along);
   const x: V3 = [-Math.cos(placement.b), -Math.sin(placement.b), 0];
-  const torch = (request['torch'] ?? {}) as {min_deg?: number; max_deg?: number};
+  const torch = (request.torch ?? {}) as {min_deg?: number; max_deg?: number};
   return {
     outer: chord.outer_diameter_mm / 2,
     inner: chord.outer_diameter_mm / 2 - chord.wall_mm,
@@ -51,12 +51,12 @@ export function holeOf(request: Body, chord: Size, sizes: ReadonlyMap<string, Si
     x,
     y: cross(along, x),
     placement,
-    kind: String(joint['kind']),
-    gap: (joint['gap_mm'] as number | undefined) ?? 0,
-    depth: (joint['depth_mm'] as number | undefined) ?? chord.wall_mm,
-    groove: request['groove'] as Body,
-    tilt: String(request['tilt'] ?? 'axial'),
-    kerf: (request['kerf_mm'] as number | undefined) ?? 0,
+    kind: String(joint.kind),
+    gap: (joint.gap_mm as number | undefined) ?? 0,
+    depth: (joint.depth_mm as number | undefined) ?? chord.wall_mm,
+    groove: request.groove as Body,
+    tilt: String(request.tilt ?? 'axial'),
+    kerf: (request.kerf_mm as number | undefined) ?? 0,
     torch: {min: torch.min_deg ?? -80, max: torch.max_deg ?? 80},
   };
 }
@@ -65,12 +65,12 @@ const wrapped = (deg: number) => ((((deg + 180) % 360) + 360) % 360) - 180;
 
 /** One hole: its edges in space against the branch, its angles, its torch line. */
 export function checkHole(scope: Scope, hole: Hole, result: Body): void {
-  const points = result['points'] as unknown as Columns;
-  const far = result['side'] === 'far';
+  const points = result.points as unknown as Columns;
+  const far = result.side === 'far';
   const setOn = hole.kind === 'set_on';
   const rho = setOn ? hole.branchInner : hole.branchOuter + hole.gap;
   const surface = setOn ? hole.outer : hole.inner;
-  const count = (points['phi_deg'] as number[]).length;
+  const count = (points.phi_deg as number[]).length;
   const fine = 2e-10 * (1 + hole.outer / 100);
   const square = hole.tilt === 'none';
   /** Out of the chord along the branch, on this side of it. */
@@ -83,7 +83,7 @@ export function checkHole(scope: Scope, hole: Hole, result: Body): void {
     return rho / Math.abs(dot(T, cross(hole.d, m)));
   };
   for (let i = 0; i < count; i += 1) {
-    const at = (name: string) => (points[name] as number[])[i] as number;
+    const at = (name: string) => (points[name] as number[])[i];
     const where = `row ${i}`;
     const O = onTube(hole.outer, at('phi_deg') * RAD, at('z_mm'));
     const I = onTube(hole.inner, at('phi_inner_deg') * RAD, at('z_inner_mm'));
@@ -112,7 +112,7 @@ export function checkHole(scope: Scope, hole: Hole, result: Body): void {
       const g = unit(sub(N, mul(m, dot(N, m))));
       scope.same('hole_groove', at('groove_deg'), Math.atan2(dot(D, m), dot(D, g)) / RAD, 4e-9, 'deg', where);
       if (hole.tilt === 'free' && !setOn) {
-        const wanted = hole.groove['rule'] === 'square' ? Math.max(0, psi - Math.PI / 2) : (grooveOf(hole.groove, psi) ?? 0);
+        const wanted = hole.groove.rule === 'square' ? Math.max(0, psi - Math.PI / 2) : (grooveOf(hole.groove, psi) ?? 0);
         const bound = Math.min(wanted, hole.torch.max * RAD + psi - Math.PI / 2);
         scope.same('hole_rule', at('groove_deg'), bound / RAD, 4e-9, 'deg', where);
       }
@@ -120,9 +120,9 @@ export function checkHole(scope: Scope, hole: Hole, result: Body): void {
     for (const edge of setOn ? [] : [O, I])
       scope.most('hole_clears_branch', hole.branchOuter + hole.gap - lineDistance(edge, hole.q, hole.d), 1e-6, 'mm', where);
     scope.most('hole_leaves', -dot(P, out) + dot(hole.q, out) - 3 * hole.outer, 0, 'mm', where);
-    const [here, next] = [points['branch_phi_deg'] as number[], points['length_mm'] as number[]];
-    const [a, b] = [here[i] as number, here[(i + 1) % count] as number];
-    const stated = i + 1 < count ? (next[i + 1] as number) - (next[i] as number) : (result['length_mm'] as number) - (next[i] as number) + (next[0] as number);
+    const [here, next] = [points.branch_phi_deg as number[], points.length_mm as number[]];
+    const [a, b] = [here[i], here[(i + 1) % count]];
+    const stated = i + 1 < count ? next[i + 1] - next[i] : (result.length_mm as number) - next[i] + next[0];
     const own = Math.abs(integral(speed, a * RAD, (a + wrapped(b - a)) * RAD, 1e-11)); // the far hole runs against the branch's phase
     scope.same('hole_length', stated, own, 1e-7 + 1e-7 * own, 'mm', where);
   }
@@ -143,7 +143,7 @@ type Fit = {root: V3; face: V3; off: (p: V3) => number}; // root and face: radiu
 
 /** The two edges that face the other member at a row: the hole's own, or for a set-on branch those of its end. */
 function fitOf(hole: Hole, points: Columns, i: number): Fit {
-  const at = (name: string) => (points[name] as number[])[i] as number;
+  const at = (name: string) => (points[name] as number[])[i];
   if (hole.kind !== 'set_on') {
     const face: V3 = [hole.outer, at('phi_deg') * RAD, at('z_mm')];
     const root: V3 = [hole.inner, at('phi_inner_deg') * RAD, at('z_inner_mm')];
@@ -163,46 +163,46 @@ function endBy(hole: Hole, phi: number): {inner: number; outer: number; b: numbe
   const inner = tube('', Q, E, R).top(hole.branchInner * Math.cos(phi), hole.branchInner * Math.sin(phi)) ?? NaN;
   const n = local(unit(across(sub(onTube(hole.branchInner, phi, inner), Q), E)), phi);
   const {psi, flush} = anglesOf(n);
-  const rule = hole.kind === 'set_in' ? flush : hole.groove['rule'] === 'square' ? 0 : axialB(grooveOf(hole.groove, psi) ?? 0, n);
+  const rule = hole.kind === 'set_in' ? flush : hole.groove.rule === 'square' ? 0 : axialB(grooveOf(hole.groove, psi) ?? 0, n);
   const b = Math.min(hole.torch.max * RAD, Math.max(rule, flush));
   return {inner, outer: inner + (hole.branchOuter - hole.branchInner) * Math.tan(b), b};
 }
 
 /** Gaps between the hole and the branch at both edges, the least across, and along straight lines between the rows. */
 function checkFitUp(scope: Scope, hole: Hole, result: Body, points: Columns): void {
-  const fit = result['fit_up'] as unknown as {[name: string]: number[]};
-  const rows = (points['phi_deg'] as number[]).map((_, i) => fitOf(hole, points, i));
+  const fit = result.fit_up as unknown as {[name: string]: number[]};
+  const rows = (points.phi_deg as number[]).map((_, i) => fitOf(hole, points, i));
   const leastOf = ({root, face, off}: Fit): number => -highest((v) => -off(mix(onTube(...root), onTube(...face), v)), 0, 1, 4, 1e-5)[1];
   const near = (a: V3, b: V3): V3 => [b[0], a[1] + Math.atan2(Math.sin(b[1] - a[1]), Math.cos(b[1] - a[1])), b[2]];
   let [least, widest] = [Infinity, -Infinity];
   rows.forEach((row, i) => {
     const own = leastOf(row);
-    scope.same('hole_fit_up', (fit['root_mm'] as number[])[i] as number, row.off(onTube(...row.root)), 1e-9, 'mm', `row ${i}`);
-    scope.same('hole_fit_up', (fit['face_mm'] as number[])[i] as number, row.off(onTube(...row.face)), 1e-9, 'mm', `row ${i}`);
+    scope.same('hole_fit_up', fit.root_mm[i], row.off(onTube(...row.root)), 1e-9, 'mm', `row ${i}`);
+    scope.same('hole_fit_up', fit.face_mm[i], row.off(onTube(...row.face)), 1e-9, 'mm', `row ${i}`);
     // Where the least gap lies inside the wall, answers have that of a few places across it, up to 0.02 mm wider.
     const inside = own < Math.min(row.off(onTube(...row.root)), row.off(onTube(...row.face))) - 1e-9;
-    scope.same('hole_least', (fit['least_mm'] as number[])[i] as number, own, inside ? 0.02 : 1e-7, 'mm', `row ${i}`);
-    const next = rows[(i + 1) % rows.length] as Fit;
+    scope.same('hole_least', fit.least_mm[i], own, inside ? 0.02 : 1e-7, 'mm', `row ${i}`);
+    const next = rows[(i + 1) % rows.length];
     for (let u = 0; u < 1; u += 0.25) {
       const between: Fit = {root: mix(row.root, near(row.root, next.root), u), face: mix(row.face, near(row.face, next.face), u), off: row.off};
       least = Math.min(least, leastOf(between));
       widest = Math.max(widest, row.off(onTube(...between.root)));
     }
   });
-  scope.same('hole_least_between', Number(fit['least_between_nodes_mm']), least, hole.tilt === 'none' ? 0.02 : 3e-3, 'mm');
-  scope.same('hole_root_between', Number(fit['greatest_root_between_nodes_mm']), widest, 3e-3, 'mm');
+  scope.same('hole_least_between', Number(fit.least_between_nodes_mm), least, hole.tilt === 'none' ? 0.02 : 3e-3, 'mm');
+  scope.same('hole_root_between', Number(fit.greatest_root_between_nodes_mm), widest, 3e-3, 'mm');
   scope.covers('fit_up/root_mm', 'fit_up/face_mm', 'fit_up/least_mm', 'fit_up/least_between_nodes_mm', 'fit_up/greatest_root_between_nodes_mm');
 }
 
 /** What the beam takes from the hole's wall and leaves on it, sampled along straight lines between the rows. */
 function checkBeam(scope: Scope, hole: Hole, result: Body, points: Columns): void {
-  const stated = result['torch_line'] as unknown as TorchLine;
-  const n = (points['phi_deg'] as number[]).length;
+  const stated = result.torch_line as unknown as TorchLine;
+  const n = (points.phi_deg as number[]).length;
   const column = (name: string) => points[name] as number[];
-  const edge = (rho: number, phi: string, z: string) => column(phi).map((deg, i) => onTube(rho, deg * RAD, column(z)[i] as number));
+  const edge = (rho: number, phi: string, z: string) => column(phi).map((deg, i) => onTube(rho, deg * RAD, column(z)[i]));
   const [O, I] = [edge(hole.outer, 'phi_deg', 'z_mm'), edge(hole.inner, 'phi_inner_deg', 'z_inner_mm')];
   const [TO, TI] = [edge(hole.outer, 'torch_phi_deg', 'torch_z_mm'), edge(hole.inner, 'torch_phi_inner_deg', 'torch_z_inner_mm')];
-  const at = (list: V3[], i: number) => list[((i % n) + n) % n] as V3;
+  const at = (list: V3[], i: number) => list[((i % n) + n) % n];
   const between = (list: V3[], i: number, u: number) => mix(at(list, i), at(list, i + 1), u);
   const far = 2 * hole.kerf + 0.5 + 2 * Math.max(...TO.map((p, k) => norm(sub(p, at(TO, k + 1)))));
   if (hole.kerf === 0) {
@@ -235,22 +235,22 @@ function checkBeam(scope: Scope, hole: Hole, result: Body, points: Columns): voi
 /** The branch's own end, of which the chord with the gap is the one partner. */
 export function checkBranchEnd(scope: Scope, hole: Hole, branch: Body): void {
   const {a, s} = hole.placement;
-  const cutter = branch['cutter'] as {[name: string]: number};
+  const cutter = branch.cutter as {[name: string]: number};
   const R = hole.kind === 'set_in' ? hole.outer - hole.depth : hole.outer + hole.gap;
-  scope.same('branch_cutter', cutter['outer_diameter_mm'] as number, 2 * R, 3e-10, 'mm');
-  scope.same('branch_cutter', (cutter['inclination_deg'] as number) * RAD, a, 1e-11, 'rad');
+  scope.same('branch_cutter', cutter.outer_diameter_mm, 2 * R, 3e-10, 'mm');
+  scope.same('branch_cutter', cutter.inclination_deg * RAD, a, 1e-11, 'rad');
   for (const [name, value] of [
     ['clocking_deg', 0],
     ['offset_mm', s],
     ['height_mm', 0],
   ] as const)
-    scope.same('branch_cutter', cutter[name] as number, value, 3e-10, '', name);
-  const points = branch['points'] as unknown as Columns;
+    scope.same('branch_cutter', cutter[name], value, 3e-10, '', name);
+  const points = branch.points as unknown as Columns;
   const [Q, E] = axisOf(cutter as unknown as Body);
   const t = hole.branchOuter - hole.branchInner;
-  (points['phi_deg'] as number[]).forEach((deg, i) => {
+  (points.phi_deg as number[]).forEach((deg, i) => {
     const phi = deg * RAD;
-    const at = (name: string) => (points[name] as number[])[i] as number;
+    const at = (name: string) => (points[name] as number[])[i];
     const where = `row ${i}`;
     const own = endBy(hole, phi);
     scope.same('branch_root', lineDistance(onTube(hole.branchInner, phi, at('z_inner_mm')), Q, E), R, 3e-10 * (1 + R / 100), 'mm', where);
@@ -261,7 +261,7 @@ export function checkBranchEnd(scope: Scope, hole: Hole, branch: Body): void {
 }
 
 export function checkHoles(scope: Scope, request: Body, result: Body, sizes: ReadonlyMap<string, Size>): void {
-  const hole = holeOf(request, sizeOf(request['chord'] as Body, sizes), sizes);
-  for (const made of result['holes'] as Body[]) checkHole(scope.under('holes/*'), hole, made);
-  if (result['branch']) checkBranchEnd(scope.under('branch'), hole, result['branch'] as Body);
+  const hole = holeOf(request, sizeOf(request.chord as Body, sizes), sizes);
+  for (const made of result.holes as Body[]) checkHole(scope.under('holes/*'), hole, made);
+  if (result.branch) checkBranchEnd(scope.under('branch'), hole, result.branch as Body);
 }

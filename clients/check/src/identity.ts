@@ -7,9 +7,9 @@ export function checkHashes(scope: Scope, text: string, at = 0): void {
   const top = members(text, at);
   const job = JSON.parse(slice(text, top.get('job'))) as {[name: string]: string};
   const [request, result, parts] = [top.get('request'), top.get('result'), top.get('parts')];
-  if (request) scope.equal('input_sha256', sha256(without(text, request.value, ['reference', 'log'])), job['input_sha256']);
+  if (request) scope.equal('input_sha256', sha256(without(text, request.value, ['reference', 'log'])), job.input_sha256);
   const asked = request ? members(text, request.value) : new Map();
-  if (result && !asked.has('columns') && !isPart(text, asked.get('tables'))) scope.equal('result_sha256', sha256(slice(text, result)), job['result_sha256']);
+  if (result && !asked.has('columns') && !isPart(text, asked.get('tables'))) scope.equal('result_sha256', sha256(slice(text, result)), job.result_sha256);
   else if (result) scope.not('job/result_sha256', 'the answer has some columns, its hash is of all');
   if (!parts || !result) return;
   const rows = (JSON.parse(slice(text, result)) as {cut_list: {part: string; result_sha256?: string}[]}).cut_list;
@@ -39,9 +39,8 @@ export function checkRequest(scope: Scope, sent: Json, echo: Json, pointer = '/r
     const names = echo && typeof echo === 'object' && !Array.isArray(echo) ? echo : {};
     for (const [name, value] of Object.entries(sent)) {
       const other = name.replace(/_deg$/, '_rad');
-      if (names[name] !== undefined) checkRequest(scope, value, names[name] as Json, `${pointer}/${name}`);
-      else if (names[other] !== undefined && typeof value === 'number')
-        checkRequest(scope, (value * Math.PI) / 180, names[other] as Json, `${pointer}/${name}`);
+      if (names[name] !== undefined) checkRequest(scope, value, names[name], `${pointer}/${name}`);
+      else if (names[other] !== undefined && typeof value === 'number') checkRequest(scope, (value * Math.PI) / 180, names[other], `${pointer}/${name}`);
       else scope.not(`request_echo${pointer}/${name}`, 'the answer does not echo it');
     }
   } else scope.equal('request_echo', echo, sent, pointer);

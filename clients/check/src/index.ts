@@ -34,13 +34,13 @@ export function certify(answer: string, request?: string, names: Names = {}): Ce
   const body = JSON.parse(answer) as Body;
   const report = new Report();
   const know: Knowledge = {
-    sizes: new Map(listOf(names.tubes, 'tubes').map((row) => [String(row['size']), row as unknown as Size])),
-    machines: new Map(listOf(names.machines, 'machines').map((row) => [String(row['name']), row['machine'] as Body])),
+    sizes: new Map(listOf(names.tubes, 'tubes').map((row) => [String(row.size), row as unknown as Size])),
+    machines: new Map(listOf(names.machines, 'machines').map((row) => [String(row.name), row.machine as Body])),
   };
   checkHashes(new Scope(report, ''), answer);
-  if (request !== undefined) checkRequest(new Scope(report, ''), JSON.parse(request) as Json, body['request'] as Json);
-  const job = body['job'] as Body | undefined;
-  if (body['result'] && job) guarded(new Scope(report), String(job['endpoint']), () => checkResult(new Scope(report), String(job['endpoint']), body, know));
+  if (request !== undefined) checkRequest(new Scope(report, ''), JSON.parse(request) as Json, body.request);
+  const job = body.job as Body | undefined;
+  if (body.result && job) guarded(new Scope(report), String(job.endpoint), () => checkResult(new Scope(report), String(job.endpoint), body, know));
   return {passed: report.passed, checks: [...report.checks.values()], notChecked: uncovered(body, report)};
 }
 
@@ -56,21 +56,21 @@ function guarded(scope: Scope, endpoint: string, check: () => void): void {
 }
 
 function checkResult(scope: Scope, endpoint: string, answer: Body, know: Knowledge): void {
-  const [request, result] = [answer['request'] as Body, answer['result'] as Body];
-  const ids = (result['cutter_ids'] ?? []) as string[];
-  const {kind = 'round', size = ''} = (request['target'] ?? {}) as {kind?: string; size?: string};
+  const [request, result] = [answer.request as Body, answer.result as Body];
+  const ids = (result.cutter_ids ?? []) as string[];
+  const {kind = 'round', size = ''} = (request.target ?? {}) as {kind?: string; size?: string};
   if (kind !== 'round' || /^(?!NPS |CHS )./.test(size)) {
     scope.not('', 'targets that are not round are not covered');
     return;
   }
   switch (endpoint) {
     case 'intersections': {
-      const cut = request['node'] ? cutOfNode(request, ids, know) : cutOf(request, know);
-      for (const profile of result['profiles'] as Body[]) checkProfile(scope.under('profiles/*'), cut, profile);
+      const cut = request.node ? cutOfNode(request, ids, know) : cutOf(request, know);
+      for (const profile of result.profiles as Body[]) checkProfile(scope.under('profiles/*'), cut, profile);
       return;
     }
     case 'bevel-tables':
-      checkEnd(scope, request['node'] ? cutOfNode(request, ids, know) : cutOf(request, know), result, know);
+      checkEnd(scope, request.node ? cutOfNode(request, ids, know) : cutOf(request, know), result, know);
       return;
     case 'nodes':
       checkNodes(scope, request, result, know);
@@ -82,10 +82,10 @@ function checkResult(scope: Scope, endpoint: string, answer: Body, know: Knowled
       checkFrame(scope, answer, know);
       return;
     case 'pulse-schedules':
-      checkSchedule(scope, request, result, machineOf(request['machine'], know));
+      checkSchedule(scope, request, result, machineOf(request.machine, know));
       return;
     case 'replays':
-      checkReplay(scope, request, result, machineOf(request['machine'], know));
+      checkReplay(scope, request, result, machineOf(request.machine, know));
       return;
     case 'parts':
       checkPart(scope, request, result, know);
@@ -116,8 +116,8 @@ function uncovered(body: Body, report: Report): {pointer: string; why: string}[]
       } else for (const item of value) walk(item, `${pointer}/*`);
     } else if (value && typeof value === 'object') for (const [name, item] of Object.entries(value)) walk(item, `${pointer}/${name}`);
   };
-  walk((body['result'] ?? null) as Json, '/result');
-  for (const part of (body['parts'] ?? []) as Body[]) walk(((part['answer'] as Body | undefined)?.['result'] ?? null) as Json, '/parts/*/answer/result');
+  walk((body.result ?? null) as Json, '/result');
+  for (const part of (body.parts ?? []) as Body[]) walk(((part.answer as Body | undefined)?.result ?? null) as Json, '/parts/*/answer/result');
   const reasons = [...report.notes];
   for (const pointer of found.keys()) found.set(pointer, reasons.find(([base]) => pointer.startsWith(base))?.[1] ?? '');
   return [...found].map(([pointer, why]) => ({pointer, why}));

@@ -35,7 +35,7 @@ function closing(text: string, at: number): number {
 }
 
 const space = (text: string, at: number) => {
-  while (at < text.length && ' \t\r\n'.includes(text[at] as string)) at += 1;
+  while (at < text.length && ' \t\r\n'.includes(text[at])) at += 1;
   return at;
 };
 
@@ -87,17 +87,17 @@ export function sha256(text: string): string {
   for (let block = 0; block < padded.length; block += 64) {
     for (let i = 0; i < 16; i += 1) w[i] = view.getUint32(block + 4 * i);
     for (let i = 16; i < 64; i += 1) {
-      const [a, b] = [w[i - 15] as number, w[i - 2] as number];
-      w[i] = (w[i - 16] as number) + (turn(a, 7) ^ turn(a, 18) ^ (a >>> 3)) + (w[i - 7] as number) + (turn(b, 17) ^ turn(b, 19) ^ (b >>> 10));
+      const [a, b] = [w[i - 15], w[i - 2]];
+      w[i] = w[i - 16] + (turn(a, 7) ^ turn(a, 18) ^ (a >>> 3)) + w[i - 7] + (turn(b, 17) ^ turn(b, 19) ^ (b >>> 10));
     }
     let [a, b, c, d, e, f, g, h] = state as unknown as [number, number, number, number, number, number, number, number];
     for (let i = 0; i < 64; i += 1) {
-      const one = (h + (turn(e, 6) ^ turn(e, 11) ^ turn(e, 25)) + ((e & f) ^ (~e & g)) + (rounds[i] as number) + (w[i] as number)) >>> 0;
+      const one = (h + (turn(e, 6) ^ turn(e, 11) ^ turn(e, 25)) + ((e & f) ^ (~e & g)) + rounds[i] + w[i]) >>> 0;
       const two = ((turn(a, 2) ^ turn(a, 13) ^ turn(a, 22)) + ((a & b) ^ (a & c) ^ (b & c))) >>> 0;
       [h, g, f, e, d, c, b, a] = [g, f, e, (d + one) >>> 0, c, b, a, (one + two) >>> 0];
     }
     [a, b, c, d, e, f, g, h].forEach((v, i) => {
-      state[i] = ((state[i] as number) + v) >>> 0;
+      state[i] = (state[i] + v) >>> 0;
     });
   }
   return state.map((v) => v.toString(16).padStart(8, '0')).join('');

@@ -6,17 +6,17 @@ import {onTube, RAD} from './space.js';
 import {checkEvents, checkLength, type Event, jumpsOf} from './wall.js';
 
 export function checkProfile(scope: Scope, whole: Cut, profile: Body): void {
-  const surface = profile['surface'] as 'inner' | 'outer';
+  const surface = profile.surface as 'inner' | 'outer';
   const cut: Cut = {...whole, root: surface};
   const rho = surface === 'inner' ? cut.inner : cut.outer;
-  const points = profile['points'] as unknown as {[name: string]: number[]};
-  scope.same('profile_radius', profile['radius_mm'] as number, rho, 1e-12 * (1 + rho), 'mm');
-  const [phi, z, cutter] = [points['phi_deg'] as number[], points['z_mm'] as number[], points['cutter'] as number[]];
-  const events = profile['events'] as unknown as Event[];
+  const points = profile.points as unknown as {[name: string]: number[]};
+  scope.same('profile_radius', profile.radius_mm as number, rho, 1e-12 * (1 + rho), 'mm');
+  const [phi, z, cutter] = [points.phi_deg, points.z_mm, points.cutter];
+  const events = profile.events as unknown as Event[];
   const jumps = jumpsOf(events, surface);
   phi.forEach((deg, i) => {
     const at = deg * RAD;
-    const [height, by] = [z[i] as number, cutter[i] as number];
+    const [height, by] = [z[i], cutter[i]];
     const top = cut.partners[by]?.top(rho * Math.cos(at), rho * Math.sin(at)) ?? NaN;
     const fine = 1e-10 + 3e-13 * (rho + Math.abs(height));
     const lost = jumps.some((jump) => Math.abs(jump - at) < 1e-9);

@@ -19,20 +19,15 @@ type Counts = {[name: string]: number[]};
 const list = (v: unknown) => (v ?? []) as Body[];
 const scale = (axis: Axis): number => axis.pulses_per_unit ?? (axis.pulses_per_turn as number) / 360;
 const largest = (values: number[]): number => values.reduce((most, v) => Math.max(most, Math.abs(v)), 0);
-const steps = (values: number[]): number[] => values.map((v, i) => v - (i > 0 ? (values[i - 1] as number) : 0));
+const steps = (values: number[]): number[] => values.map((v, i) => v - (i > 0 ? values[i - 1] : 0));
 
 export function checkSchedule(scope: Scope, request: Body, result: Body, machine: Body | undefined): void {
-  const [counts, total, start, report] = [
-    result['counts'] as unknown as Counts,
-    result['total'] as Numbers,
-    result['start'] as Numbers,
-    result['report'] as Body,
-  ];
-  const period = (result['period_us'] as number) * 1e-6;
-  const periods = result['periods'] as number;
-  scope.same('schedule_time', report['time_s'] as number, periods * period, 1e-10 * (1 + periods * period), 's');
+  const [counts, total, start, report] = [result.counts as unknown as Counts, result.total as Numbers, result.start as Numbers, result.report as Body];
+  const period = (result.period_us as number) * 1e-6;
+  const periods = result.periods as number;
+  scope.same('schedule_time', report.time_s as number, periods * period, 1e-10 * (1 + periods * period), 's');
   scope.covers('periods', 'period_us', 'report/time_s');
-  const peaks = report['peak'] as Numbers;
+  const peaks = report.peak as Numbers;
   for (const [name, sum] of Object.entries(total)) {
     const n = counts[name] ?? [];
     scope.same(
@@ -43,7 +38,7 @@ export function checkSchedule(scope: Scope, request: Body, result: Body, machine
       'pulses',
       name,
     );
-    scope.same('peak', peaks[name] as number, largest(n), 0, 'pulses', name);
+    scope.same('peak', peaks[name], largest(n), 0, 'pulses', name);
     scope.most('whole_pulses', n.every(Number.isInteger) ? 0 : 1, 0, '', name);
     scope.same('schedule_periods', n.length, counts[name] ? periods : 0, 0, '', name);
     scope.covers(`counts/${name}`, `total/${name}`, `report/peak/${name}`);
@@ -51,29 +46,27 @@ export function checkSchedule(scope: Scope, request: Body, result: Body, machine
   checkTimes(scope, result, period);
   if (!machine) scope.not('', 'the machine is not given: see --machines');
   else {
-    scope.same('schedule_period', result['period_us'] as number, machine['period_us'] as number, 0, 'us');
-    const jerk = ((request['motion'] ?? {}) as Body)['jerk'] !== false;
-    for (const axis of machine['axes'] as unknown as Axis[])
-      checkAxis(scope, axis, counts[axis.name] ?? [], start[axis.name], period, jerk, report, !result['segments']); // of a part, uses are of its cuts only
+    scope.same('schedule_period', result.period_us as number, machine.period_us as number, 0, 'us');
+    const jerk = ((request.motion ?? {}) as Body).jerk !== false;
+    for (const axis of machine.axes as unknown as Axis[])
+      checkAxis(scope, axis, counts[axis.name] ?? [], start[axis.name], period, jerk, report, !result.segments); // of a part, uses are of its cuts only
   }
-  for (const axis of list(((result['comparison'] as Body | undefined)?.['naive'] as Body | undefined)?.['axes'])) checkNaive(scope, axis);
+  for (const axis of list(((result.comparison as Body | undefined)?.naive as Body | undefined)?.axes)) checkNaive(scope, axis);
   if (machine) checkWay(scope, request, machine, counts, start, periods);
 }
 
 /** Segments follow each other without gaps and take the times that are stated. */
 function checkTimes(scope: Scope, result: Body, period: number): void {
-  const [segments, times] = [list(result['segments']), result['times'] as Numbers | undefined];
+  const [segments, times] = [list(result.segments), result.times as Numbers | undefined];
   if (!times) return;
-  const of = (kind: string) => segments.filter((s) => s['kind'] === kind).reduce((sum, s) => sum + ((s['to'] as number) - (s['from'] as number)) * period, 0);
-  segments.forEach((segment, i) =>
-    scope.same('segments_join', segment['from'] as number, i ? ((segments[i - 1] as Body)['to'] as number) : 0, 0, 'periods', i),
-  );
-  scope.same('segments_join', (segments[segments.length - 1] as Body)['to'] as number, result['periods'] as number, 0, 'periods');
+  const of = (kind: string) => segments.filter((s) => s.kind === kind).reduce((sum, s) => sum + ((s.to as number) - (s.from as number)) * period, 0);
+  segments.forEach((segment, i) => scope.same('segments_join', segment.from as number, i ? (segments[i - 1].to as number) : 0, 0, 'periods', i));
+  scope.same('segments_join', segments[segments.length - 1].to as number, result.periods as number, 0, 'periods');
   for (const kind of ['cut', 'pierce', 'rapid', 'mark']) {
-    if (times[`${kind}_s`] !== undefined) scope.same('times', times[`${kind}_s`] as number, of(kind), 1e-9 * (1 + of(kind)), 's', kind);
+    if (times[`${kind}_s`] !== undefined) scope.same('times', times[`${kind}_s`], of(kind), 1e-9 * (1 + of(kind)), 's', kind);
     scope.covers(`times/${kind}_s`);
   }
-  scope.same('times', times['total_s'] as number, (result['periods'] as number) * period, 1e-9 * (1 + (times['total_s'] as number)), 's');
+  scope.same('times', times.total_s, (result.periods as number) * period, 1e-9 * (1 + times.total_s), 's');
   scope.covers('times/total_s', 'segments/*/from', 'segments/*/to');
 }
 
@@ -84,26 +77,26 @@ function checkAxis(scope: Scope, axis: Axis, n: number[], start: number | undefi
   const second = steps(n);
   if (axis.n_max) scope.most('pulses_per_period', largest(n), axis.n_max, 'pulses', where);
   scope.most('speed', largest(n), axis.v_max * k * T * (1 + 1e-6) + 1, 'pulses', where);
-  scope.most('acceleration', largest([...second, n.length ? -(n[n.length - 1] as number) : 0]), axis.a_max * k * T * T * (1 + 1e-6) + 2, 'pulses', where);
+  scope.most('acceleration', largest([...second, n.length ? -n[n.length - 1] : 0]), axis.a_max * k * T * T * (1 + 1e-6) + 2, 'pulses', where);
   if (axis.j_max && jerk) scope.most('jerk', largest(steps(second)), axis.j_max * k * T ** 3 * (1 + 1e-6) + 4, 'pulses', where);
   if (start !== undefined) for (const off of beyond(axis, n, start)) scope.most('travel', off, 0.51, 'pulses', where);
-  const use = report['max_use'] as Numbers;
+  const use = report.max_use as Numbers;
   const [v, ratio] = [use[`v_${axis.name}`], use[`n_${axis.name}`]];
   if (v !== undefined) {
     if (single) scope.same('use_of_speed', v * axis.v_max * k * T, largest(n), 1, 'pulses', where);
     if (ratio !== undefined && axis.n_max) scope.same('use_of_counter', ratio * axis.n_max, v * axis.v_max * k * T, 1e-6 * axis.n_max, 'pulses', where);
     scope.covers(`report/max_use/v_${axis.name}`, `report/max_use/n_${axis.name}`);
   }
-  const closure = (report['closure'] as Numbers)[axis.name];
+  const closure = (report.closure as Numbers)[axis.name];
   if (closure !== undefined) scope.most('closure', Math.abs(closure), 1, 'pulses', where);
 }
 
 /** Figures of a contour at full speed: peak, and the largest step as a counter of 16 bits reads it. */
 function checkNaive(scope: Scope, axis: Body): void {
-  const where = String(axis['name']);
-  const largest_ = axis['largest_step_pulses'] as number;
-  scope.same('naive_peak', axis['peak_pulses'] as number, largest((axis['pulses'] ?? []) as number[]), 0.5 + 1e-9, 'pulses', where);
-  scope.same('naive_16_bits', axis['step_in_16_bits'] as number, new Int16Array([largest_])[0] as number, 0, 'pulses', where);
+  const where = String(axis.name);
+  const largest_ = axis.largest_step_pulses as number;
+  scope.same('naive_peak', axis.peak_pulses as number, largest((axis.pulses ?? []) as number[]), 0.5 + 1e-9, 'pulses', where);
+  scope.same('naive_16_bits', axis.step_in_16_bits as number, new Int16Array([largest_])[0], 0, 'pulses', where);
   scope.covers('comparison/naive/axes/*/peak_pulses', 'comparison/naive/axes/*/step_in_16_bits', 'comparison/naive/axes/*/largest_step_pulses');
 }
 

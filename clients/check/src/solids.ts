@@ -24,19 +24,19 @@ const num = (value: Json | undefined, otherwise = 0): number => (typeof value ==
 
 /** Sizes by name. CHS names state their own. */
 export function sizeOf(body: Body, sizes: ReadonlyMap<string, Size>): Size {
-  if (typeof body['size'] !== 'string') return {outer_diameter_mm: num(body['outer_diameter_mm']), wall_mm: num(body['wall_mm'])};
-  const known = sizes.get(body['size']);
+  if (typeof body.size !== 'string') return {outer_diameter_mm: num(body.outer_diameter_mm), wall_mm: num(body.wall_mm)};
+  const known = sizes.get(body.size);
   if (known) return known;
-  const chs = /^CHS ([0-9.]+)x([0-9.]+)$/.exec(body['size']);
+  const chs = /^CHS ([0-9.]+)x([0-9.]+)$/.exec(body.size);
   if (chs) return {outer_diameter_mm: Number(chs[1]), wall_mm: Number(chs[2])};
-  throw new Error(`unknown size ${body['size']}: give the answer of GET /v1/tubes`);
+  throw new Error(`unknown size ${body.size}: give the answer of GET /v1/tubes`);
 }
 
 /** The axis of a partner that is given by angles or by its own line: a point and a unit direction. */
 export function axisOf(body: Body): [V3, V3] {
-  const axis = body['axis'] as Body | undefined;
-  if (axis) return [v3(axis['point_mm']), unit(v3(axis['direction']))];
-  const [a, b, s, h] = [num(body['inclination_deg']) * RAD, num(body['clocking_deg']) * RAD, num(body['offset_mm']), num(body['height_mm'])];
+  const axis = body.axis as Body | undefined;
+  if (axis) return [v3(axis.point_mm), unit(v3(axis.direction))];
+  const [a, b, s, h] = [num(body.inclination_deg) * RAD, num(body.clocking_deg) * RAD, num(body.offset_mm), num(body.height_mm)];
   return [
     [-s * Math.cos(b), -s * Math.sin(b), h],
     [Math.sin(a) * Math.sin(b), -Math.sin(a) * Math.cos(b), Math.cos(a)],
@@ -47,19 +47,19 @@ export function axisOf(body: Body): [V3, V3] {
 export function solid(body: Body, grown: number, sizes: ReadonlyMap<string, Size>, frame?: Frame): Solid {
   const place = (p: V3) => (frame ? inFrame(frame, p) : p);
   const turn = (d: V3) => (frame ? directionIn(frame, d) : d);
-  const id = String(body['id'] ?? '');
-  if (body['kind'] === 'plane') return plane(id, place(v3(body['point_mm'])), turn(unit(v3(body['normal']))), grown);
+  const id = String(body.id ?? '');
+  if (body.kind === 'plane') return plane(id, place(v3(body.point_mm)), turn(unit(v3(body.normal))), grown);
   const [point, along] = axisOf(body);
   const [q, d] = [place(point), turn(along)];
   const diameter = () => sizeOf(body, sizes).outer_diameter_mm / 2;
-  if (body['kind'] === 'rectangular_tube') {
-    const v = unit(across(turn(v3(body['up'])), d));
-    const [a, b, c] = [num(body['width_mm']) / 2 + grown, num(body['height_mm']) / 2 + grown, num(body['corner_radius_mm']) + grown];
+  if (body.kind === 'rectangular_tube') {
+    const v = unit(across(turn(v3(body.up)), d));
+    const [a, b, c] = [num(body.width_mm) / 2 + grown, num(body.height_mm) / 2 + grown, num(body.corner_radius_mm) + grown];
     return box(id, q, cross(v, d), v, a, b, c);
   }
-  if (body['kind'] === 'cone') return cone(id, q, d, diameter(), num(body['half_angle_deg']) * RAD, grown);
-  if (body['kind'] === 'elbow')
-    return elbow(id, q, d, unit(across(turn(v3(body['inwards'])), d)), num(body['bend_radius_mm']), num(body['bend_deg']) * RAD, diameter() + grown);
+  if (body.kind === 'cone') return cone(id, q, d, diameter(), num(body.half_angle_deg) * RAD, grown);
+  if (body.kind === 'elbow')
+    return elbow(id, q, d, unit(across(turn(v3(body.inwards)), d)), num(body.bend_radius_mm), num(body.bend_deg) * RAD, diameter() + grown);
   return tube(id, q, d, diameter() + grown);
 }
 

@@ -60,7 +60,7 @@ export function integral(f: (t: number) => number, a: number, b: number, toleran
 function gauss(f: (t: number) => number, a: number, b: number): number {
   const [c, h] = [(a + b) / 2, (b - a) / 2];
   let sum = 0;
-  for (let i = 0; i < 4; i += 1) sum += (weights[i] as number) * (f(c - h * (nodes[i] as number)) + f(c + h * (nodes[i] as number)));
+  for (let i = 0; i < 4; i += 1) sum += weights[i] * (f(c - h * nodes[i]) + f(c + h * nodes[i]));
   return sum * h;
 }
 

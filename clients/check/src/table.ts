@@ -14,10 +14,10 @@ export function table({passed, checks, notChecked}: Certificate): string {
     where,
   ]);
   const head = ['', 'check', 'found', 'at most', 'unit', 'places', ''];
-  const width = head.map((text, i) => Math.max(text.length, ...rows.map((row) => (row[i] as string).length)));
+  const width = head.map((text, i) => Math.max(text.length, ...rows.map((row) => row[i].length)));
   const line = (row: string[]) =>
     row
-      .map((text, i) => ((i >= 2 && i <= 3) || i === 5 ? text.padStart(width[i] as number) : text.padEnd(width[i] as number)))
+      .map((text, i) => ((i >= 2 && i <= 3) || i === 5 ? text.padStart(width[i]) : text.padEnd(width[i])))
       .join('  ')
       .trimEnd();
   const missing = notChecked.map(({pointer, why}) => `not checked  ${pointer}${why ? `: ${why}` : ''}`);

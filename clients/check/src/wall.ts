@@ -29,13 +29,13 @@ export function rowsOf(cut: Cut, columns: Columns): Row[] {
   const col = (name: string) => columns[name] as number[];
   const t = cut.outer - cut.inner;
   const rows = col('phi_deg').map((phi, i): Row => {
-    const at = (name: string) => col(name)[i] as number;
+    const at = (name: string) => col(name)[i];
     const edges: [number, number][] = [[cut.inner, at('z_inner_mm')]];
-    if (columns['z_face_mm'] && cut.face > 0) edges.push([cut.inner + cut.face, at('z_face_mm')]);
+    if (columns.z_face_mm && cut.face > 0) edges.push([cut.inner + cut.face, at('z_face_mm')]);
     edges.push([cut.outer, at('z_outer_mm')]);
     return {phi: phi * RAD, edges, torch: [at('torch_inner_mm'), (at('torch_outer_mm') - at('torch_inner_mm')) / t]};
   });
-  const first = rows[0] as Row;
+  const first = rows[0];
   return [...rows, {...first, phi: first.phi + 2 * Math.PI}];
 }
 
@@ -47,29 +47,29 @@ export interface Place {
 
 /** The wall at the share `u` of the way from row i to the next, `v` of the way across. */
 export function wallAt(rows: Row[], i: number, u: number, v: number): Place {
-  const [a, b] = [rows[i] as Row, rows[i + 1] as Row];
-  const edges = a.edges.map(([rho, z], k): [number, number] => [rho, z + u * ((b.edges[k] as [number, number])[1] - z)]);
-  const from = (edges[0] as [number, number])[0];
-  const rho = from + v * ((edges[edges.length - 1] as [number, number])[0] - from);
+  const [a, b] = [rows[i], rows[i + 1]];
+  const edges = a.edges.map(([rho, z], k): [number, number] => [rho, z + u * (b.edges[k][1] - z)]);
+  const from = edges[0][0];
+  const rho = from + v * (edges[edges.length - 1][0] - from);
   const k = Math.min(
     edges.length - 2,
     edges.slice(1).findIndex(([r]) => rho <= r + 1e-12),
   );
-  const [[r0, z0], [r1, z1]] = [edges[Math.max(k, 0)] as [number, number], edges[Math.max(k, 0) + 1] as [number, number]];
+  const [[r0, z0], [r1, z1]] = [edges[Math.max(k, 0)], edges[Math.max(k, 0) + 1]];
   return {rho, phi: a.phi + u * (b.phi - a.phi), z: z0 + ((rho - r0) / (r1 - r0)) * (z1 - z0)};
 }
 
 /** The finished wall's height at (rho, phi). */
 export function wallOver(rows: Row[], rho: number, phi: number): number {
-  const first = (rows[0] as Row).phi;
+  const first = rows[0].phi;
   let turned = (phi - first) % (2 * Math.PI);
   if (turned < -1e-12) turned += 2 * Math.PI;
   const at = first + turned;
   let i = 0;
-  while (i + 2 < rows.length && (rows[i + 1] as Row).phi < at) i += 1;
-  const [a, b] = [rows[i] as Row, rows[i + 1] as Row];
+  while (i + 2 < rows.length && rows[i + 1].phi < at) i += 1;
+  const [a, b] = [rows[i], rows[i + 1]];
   const edges = a.edges;
-  const [from, to] = [(edges[0] as [number, number])[0], (edges[edges.length - 1] as [number, number])[0]];
+  const [from, to] = [edges[0][0], edges[edges.length - 1][0]];
   return wallAt(rows, i, b.phi > a.phi ? Math.min(1, Math.max(0, (at - a.phi) / (b.phi - a.phi))) : 0, (rho - from) / (to - from)).z;
 }
 
@@ -109,7 +109,7 @@ function toBeam(cut: Cut, rows: Row[], i: number, place: Place): number {
   const count = rows.length - 1;
   const off = (row: number, u: number): number => {
     const k = ((row % count) + count) % count;
-    const [a, b] = [rows[k] as Row, rows[k + 1] as Row];
+    const [a, b] = [rows[k], rows[k + 1]];
     const [at, slope] = [a.torch[0] + u * (b.torch[0] - a.torch[0]), a.torch[1] + u * (b.torch[1] - a.torch[1])];
     const turned = place.phi - a.phi - u * (b.phi - a.phi);
     const along = place.z - at - slope * (place.rho * Math.cos(turned) - cut.inner);
@@ -119,7 +119,7 @@ function toBeam(cut: Cut, rows: Row[], i: number, place: Place): number {
   const sections: number[] = [i];
   for (const way of [-1, 1])
     for (let k = i + way; Math.abs(k - i) < count; k += way) {
-      const near = (rows[((k % count) + count) % count] as Row).phi;
+      const near = rows[((k % count) + count) % count].phi;
       const apart = Math.abs(Math.atan2(Math.sin(near - place.phi), Math.cos(near - place.phi)));
       sections.push(k);
       if (apart > window) break;
@@ -141,7 +141,7 @@ export function checkTorchLine(scope: Scope, cut: Cut, rows: Row[], stated: Torc
     scope.covers('torch_line/gouge_mm', 'torch_line/left_mm');
     return;
   }
-  if (rows.some((row, i) => i > 0 && row.phi - (rows[i - 1] as Row).phi < 1e-12)) {
+  if (rows.some((row, i) => i > 0 && row.phi - rows[i - 1].phi < 1e-12)) {
     scope.not('torch_line', 'at a jump the wall has a step');
     return;
   }
@@ -156,14 +156,14 @@ export function checkTorchLine(scope: Scope, cut: Cut, rows: Row[], stated: Torc
   ] as [Found, Found];
   const look = (i: number, u: number, v: number) => {
     const value = off(i, u, v);
-    deepest = better(deepest as Found, -value, i, u, v);
-    if (v >= bare) thickest = better(thickest as Found, value, i, u, v);
+    deepest = better(deepest, -value, i, u, v);
+    if (v >= bare) thickest = better(thickest, value, i, u, v);
   };
   for (let i = 0; i + 1 < rows.length; i += 1) for (const u of [0, 0.5]) for (const v of [0, 0.5, 1]) look(i, u, v);
   for (const phi of [stated.gouge_phi_deg, stated.left_phi_deg]) {
-    const turned = (((phi * RAD - (rows[0] as Row).phi) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI);
+    const turned = (((phi * RAD - rows[0].phi) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI);
     let i = 0;
-    while (i + 2 < rows.length && (rows[i + 1] as Row).phi - (rows[0] as Row).phi < turned) i += 1;
+    while (i + 2 < rows.length && rows[i + 1].phi - rows[0].phi < turned) i += 1;
     for (const k of [i - 1, i, i + 1]) if (k >= 0 && k + 1 < rows.length) for (let u = 0; u < 8; u += 1) for (let v = 0; v <= 4; v += 1) look(k, u / 8, v / 4);
   }
   /** Uphill from the best place, by steps that are halved. */
@@ -181,7 +181,7 @@ export function checkTorchLine(scope: Scope, cut: Cut, rows: Row[], stated: Torc
       }
     return best[0];
   };
-  const [gouge, left] = [climbed(deepest as Found, -1), climbed(thickest as Found, 1)];
+  const [gouge, left] = [climbed(deepest, -1), climbed(thickest, 1)];
   scope.most('gouge_bound', gouge, 0.0125, 'mm');
   scope.same('gouge_stated', stated.gouge_mm, gouge, 4e-3, 'mm');
   scope.same('left_stated', stated.left_mm, left, 6e-3 + 0.02 * left, 'mm');
@@ -218,7 +218,7 @@ export function checkEvents(scope: Scope, cut: Cut, events: Event[], surface: 'i
   const count = 1440;
   const labels = Array.from({length: count}, (_, i) => envelope(cut, rho, (i * 2 * Math.PI) / count).by);
   for (let i = 0; i < count; i += 1) {
-    const [a, b] = [labels[i] as number, labels[(i + 1) % count] as number];
+    const [a, b] = [labels[i], labels[(i + 1) % count]];
     if (a === b || same(cut, a, b, rho, (i * 2 * Math.PI) / count)) continue;
     const from = (i * 360) / count - 1e-9;
     const met = mine.some(({phi_deg}) => {
@@ -256,7 +256,7 @@ export function curveLength(cut: Cut, rho: number, from: number, to: number, eve
     .filter(({event, phi}) => event.kind === 'jump' && phi > from + 1e-12)
     .reduce((all, {event}) => all + Math.abs(event.z_to_mm - event.z_from_mm), 0);
   for (let i = 0; i + 1 < corners.length; i += 1) {
-    const [a, b] = [corners[i] as number, corners[i + 1] as number];
+    const [a, b] = [corners[i], corners[i + 1]];
     if (b - a < 1e-14) continue;
     const folded = (t: number) => speed(a + (b - a) * Math.sin((Math.PI * t) / 2) ** 2) * (b - a) * (Math.PI / 2) * Math.sin(Math.PI * t);
     sum += integral(folded, 0, 1, 1e-10 * (b - a) * rho + 1e-13, 12);
@@ -279,11 +279,11 @@ export function checkLength(
   const jumps = jumpsOf(events, surface);
   let total = 0;
   phi.forEach((at, i) => {
-    const next = i + 1 < phi.length ? (phi[i + 1] as number) : (phi[0] as number) + 360;
+    const next = i + 1 < phi.length ? phi[i + 1] : phi[0] + 360;
     const own = curveLength(cut, rho, at * RAD, next * RAD, events, surface);
     total += own;
     if (!length) return;
-    const stated = i + 1 < phi.length ? (length[i + 1] as number) - (length[i] as number) : whole.length_mm - (length[i] as number) + (length[0] as number);
+    const stated = i + 1 < phi.length ? length[i + 1] - length[i] : whole.length_mm - length[i] + length[0];
     // Beside a jump the curve is as steep as its generator.
     const steep = jumps.some((jump) => Math.cos(jump - ((at + next) / 2) * RAD) > Math.cos(((next - at) / 2 + 1) * RAD));
     scope.same('length', stated, own, (steep ? 2e-6 : 1e-7) + (steep ? 1e-6 : 1e-8) * own, 'mm', `row ${i}`);
@@ -301,16 +301,16 @@ export function checkBinds(scope: Scope, columns: Columns, binds: Body[]): void 
   const phi = col('phi_deg');
   const turned = (deg: number) => ((deg % 360) + 360) % 360;
   for (const bind of binds) {
-    const [from, to] = [bind['from_phi_deg'] as number, bind['to_phi_deg'] as number];
+    const [from, to] = [bind.from_phi_deg as number, bind.to_phi_deg as number];
     const inside = phi.flatMap((at, i) => (turned(at - from) <= turned(to - from) + 1e-9 ? [i] : []));
     const rule = (i: number) => {
-      const [tau, gamma] = [(col('tau_deg')[i] as number) * RAD, (col('gamma_deg')[i] as number) * RAD];
+      const [tau, gamma] = [col('tau_deg')[i] * RAD, col('gamma_deg')[i] * RAD];
       return Math.atan2(Math.sin(tau), Math.cos(tau) * Math.cos(gamma)) / RAD;
     };
-    const lost = inside.map((i) => Math.abs(rule(i) - (col('b_raw_deg')[i] as number)));
-    const flat = Math.min(1, ...inside.map((i) => Math.max(1e-4, Math.cos((col('gamma_deg')[i] as number) * RAD))));
-    scope.same('torch_binds_gap', bind['root_gap_mm'] as number, Math.max(...inside.map((i) => col('gap_mm')[i] as number)), 3e-10, 'mm', `phi ${from}`);
-    scope.same('torch_binds_groove', bind['groove_lost_deg'] as number, Math.max(0, ...lost), 3e-9 + 1e-12 / flat ** 2, 'deg', `phi ${from}`);
+    const lost = inside.map((i) => Math.abs(rule(i) - col('b_raw_deg')[i]));
+    const flat = Math.min(1, ...inside.map((i) => Math.max(1e-4, Math.cos(col('gamma_deg')[i] * RAD))));
+    scope.same('torch_binds_gap', bind.root_gap_mm as number, Math.max(...inside.map((i) => col('gap_mm')[i])), 3e-10, 'mm', `phi ${from}`);
+    scope.same('torch_binds_groove', bind.groove_lost_deg as number, Math.max(0, ...lost), 3e-9 + 1e-12 / flat ** 2, 'deg', `phi ${from}`);
     for (const end of [from, to])
       scope.most('torch_binds_phi', Math.min(...phi.map((at) => Math.abs(turned(at - end + 180) - 180))), 1e-9, 'deg', `phi ${end}`);
   }
@@ -326,7 +326,7 @@ interface Laser {
 
 /** A head that never tilts: gaps of both edges, those of a flush cut, travel, and the tongue where it is stated. */
 export function checkUntilted(scope: Scope, cut: Cut, columns: Columns, laser: Laser | undefined): void {
-  const phi = columns['phi_deg'] as number[];
+  const phi = columns.phi_deg as number[];
   const least = (rho: number, at: number, z: number) => Math.min(...cut.partners.map((partner) => partner.distance(onTube(rho, at, z))));
   const col = (name: string) => columns[name] as number[];
   const gaps = ['gap_inner_mm', 'gap_outer_mm', 'bevelled_gap_inner_mm', 'bevelled_gap_outer_mm'];
@@ -336,12 +336,12 @@ export function checkUntilted(scope: Scope, cut: Cut, columns: Columns, laser: L
       const z = envelope(cut, cut.inner, at).z;
       const flush = z + (cut.outer - cut.inner) * Math.tan(Math.max(-85 * RAD, required(cut, at, cut.inner, z, cut.outer)));
       const own = [
-        least(cut.inner, at, col('z_inner_mm')[i] as number),
-        least(cut.outer, at, col('z_outer_mm')[i] as number),
+        least(cut.inner, at, col('z_inner_mm')[i]),
+        least(cut.outer, at, col('z_outer_mm')[i]),
         least(cut.inner, at, z),
         least(cut.outer, at, flush),
       ];
-      gaps.forEach((name, k) => scope.same(name.replace('_mm', ''), col(name)[i] as number, own[k] as number, 1e-7, 'mm', `row ${i}`));
+      gaps.forEach((name, k) => scope.same(name.replace('_mm', ''), col(name)[i], own[k], 1e-7, 'mm', `row ${i}`));
     });
     scope.covers(...gaps.map((name) => `points/${name}`));
   }
@@ -355,7 +355,7 @@ export function checkUntilted(scope: Scope, cut: Cut, columns: Columns, laser: L
     const both = ['inner', 'outer'].map((edge) => Math.max(...col(`${prefix}_${edge}_mm`)));
     scope.same('greatest_gap', stated.greatest_mm, Math.max(...both), 1e-9, 'mm', name);
     const i = phi.findIndex((deg) => Math.abs(deg - stated.phi_deg) < 1e-9);
-    scope.same('greatest_gap_at', stated.greatest_mm, i < 0 ? NaN : (col(`${prefix}_${stated.edge}_mm`)[i] as number), 1e-9, 'mm', name);
+    scope.same('greatest_gap_at', stated.greatest_mm, i < 0 ? NaN : col(`${prefix}_${stated.edge}_mm`)[i], 1e-9, 'mm', name);
     scope.covers(`tube_laser/${name}/greatest_mm`, `tube_laser/${name}/phi_deg`);
   }
   const torch = [...col('torch_inner_mm'), ...col('torch_outer_mm')];
@@ -367,11 +367,11 @@ export function checkUntilted(scope: Scope, cut: Cut, columns: Columns, laser: L
 /** Both ways from the tip, the edge has fallen by one wall; in between lies the tongue's width. */
 function checkTongue(scope: Scope, cut: Cut, rows: Row[], tongue: {width_mm: number; phi_deg: number; z_mm: number; radius_mm: number}): void {
   const {radius_mm: rho, z_mm: tip} = tongue;
-  const k = Math.abs(rho - cut.inner) < Math.abs(rho - cut.outer) ? 0 : (rows[0] as Row).edges.length - 1;
+  const k = Math.abs(rho - cut.inner) < Math.abs(rho - cut.outer) ? 0 : rows[0].edges.length - 1;
   const wall = cut.outer - cut.inner;
   const n = rows.length - 1;
-  const z = (i: number) => ((rows[((i % n) + n) % n] as Row).edges[k] as [number, number])[1];
-  const phi = (i: number) => (rows[((i % n) + n) % n] as Row).phi + 2 * Math.PI * Math.floor(i / n);
+  const z = (i: number) => rows[((i % n) + n) % n].edges[k][1];
+  const phi = (i: number) => rows[((i % n) + n) % n].phi + 2 * Math.PI * Math.floor(i / n);
   const start = rows.findIndex((row) => Math.abs(row.phi / RAD - tongue.phi_deg) < 1e-9);
   scope.same('tongue_tip', tip, start < 0 ? NaN : z(start), 1e-9, 'mm');
   scope.same('tongue_radius', rho, k ? cut.outer : cut.inner, 1e-9, 'mm');
