@@ -145,13 +145,13 @@ export function checkRows(scope: Scope, cut: Cut, rows: Columns, zones: string[]
   }
   const face = rows.z_face_mm && cut.face > 0 ? cut.face : 0;
   const weldSide = cut.dihedral === 'weld_side';
-  const steep = Math.max(0, ...col('b_deg').map((b) => Math.abs(Math.tan(b * RAD))));
   for (let i = 0; i < col('phi_deg').length; i += 1) {
     const at = (name: string) => col(name)[i];
     const phi = at('phi_deg') * RAD;
     const [zi, zo, b] = [at('z_inner_mm'), at('z_outer_mm'), at('b_deg') * RAD];
     const where = `row ${i}`;
     const fine = place(cut, Math.max(Math.abs(zi), Math.abs(zo)));
+    const steep = Math.abs(Math.tan(b));
     if (has('developed_mm')) scope.most('developed', Math.abs(at('developed_mm') - rho * phi), 1e-10 + 1e-13 * rho * 7, 'mm', where);
     // The wall between the edges runs at B, from the land's outer edge if there is one.
     const from = face ? at('z_face_mm') : zi;

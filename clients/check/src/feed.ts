@@ -107,8 +107,9 @@ export function checkFeed(scope: Scope, request: Body, result: Body): void {
     scope.same('table_acceleration', row('cylinder_acceleration_mm_s2'), v * v * g2, 1e-10 * (1 + Math.abs(v * v * g2)), 'mm/s2', where);
   });
   scope.covers(...Object.keys(table).map((name) => `table/${name}`));
-  checkFit(scope.under('fit'), result.fit as Body, (t) => speed(start + v * t), l, start, v);
-  for (const fit of (result.comparison ?? []) as Body[]) checkFit(scope.under('comparison/*'), fit, (t) => speed(start + v * t), l, start, v);
+  const fitted = (name: string, fit: Body) => checkFit(scope.under(name), fit, (t) => speed(start + v * t), l, start, v, (end - start) / v);
+  fitted('fit', result.fit as Body);
+  for (const fit of (result.comparison ?? []) as Body[]) fitted('comparison/*', fit);
   checkGeometry(scope, l, geometry);
   if (result.cycle) checkCycle(scope.under('cycle'), request, work, result.cycle as Numbers, l);
   if (result.tool) checkTool(scope.under('tool'), request, result.tool as Numbers, v, num((result.fit as Numbers).tool_ripple));
@@ -171,7 +172,7 @@ function checkCycle(scope: Scope, request: Body, work: Numbers, cycle: Numbers, 
 }
 
 /** A polynomial's three forms are one, and its errors are what they are stated to be. */
-function checkFit(scope: Scope, fit: Body, speed: (t: number) => number, l: Linkage, start: number, v: number): void {
+function checkFit(scope: Scope, fit: Body, speed: (t: number) => number, l: Linkage, start: number, v: number, duration: number): void {
   const T = fit.duration_s as number;
   const [chebyshev, scaled, seconds, rounded] = ['chebyshev', 'scaled', 'seconds', 'seconds_rounded'].map((name) => fit[name] as number[]) as [
     number[],
@@ -182,6 +183,7 @@ function checkFit(scope: Scope, fit: Body, speed: (t: number) => number, l: Link
   const power = (list: number[], x: number) => list.reduceRight((sum, c) => sum * x + c, 0);
   const series = (u: number) => chebyshev.reduce((sum, c, n) => sum + c * Math.cos(n * Math.acos(Math.min(1, Math.max(-1, u)))), 0);
   const size = Math.abs(chebyshev[0]);
+  scope.same('fit_duration', T, duration, 1e-10 * (1 + duration), 's');
   // As many places as coefficients, one more: any coefficient that is off shows at one of them.
   for (let i = 0; i <= chebyshev.length; i += 1) {
     const t = (T * i) / chebyshev.length;
@@ -191,6 +193,8 @@ function checkFit(scope: Scope, fit: Body, speed: (t: number) => number, l: Link
   }
   scope.equal('fit_degree', [scaled.length, seconds.length, rounded.length, chebyshev.length], Array(4).fill((fit.degree as number) + 1));
   const digits = fit.digits as number;
+  const significant = (c: number) => c.toExponential().split('e')[0].replace(/[-.]/g, '').length;
+  scope.most('fit_digits', Math.max(...rounded.map(significant)), digits, 'digits');
   rounded.forEach((c, i) =>
     scope.same('fit_rounded', c, Number(seconds[i].toPrecision(digits)), Math.abs(c) * 10 ** -Math.min(digits, 14) * 3.1 + 1e-300, '', i),
   );
@@ -214,8 +218,8 @@ function checkFit(scope: Scope, fit: Body, speed: (t: number) => number, l: Link
     2e-3,
     1e-9,
   );
-  scope.same('fit_end_drift', fit.end_drift_mm as number, feed(T) - start - v * T, 1e-9 * (1 + v * T), 'mm');
-  scope.same('fit_end_drift', fit.cylinder_end_drift_mm as number, stroke(T) - strokeAt(l, start + v * T), 1e-9 * (1 + v * T), 'mm');
+  scope.same('fit_end_drift', fit.end_drift_mm as number, feed(T) - start - v * T, 1e-10 * (1 + v * T), 'mm');
+  scope.same('fit_end_drift', fit.cylinder_end_drift_mm as number, stroke(T) - strokeAt(l, start + v * T), 1e-10 * (1 + v * T), 'mm');
   scope.covers('chebyshev', 'scaled', 'seconds', 'seconds_rounded', 'duration_s', 'degree', 'digits');
   scope.covers('max_relative_error', 'rounded_max_relative_error', 'tool_position_error_mm', 'tool_ripple', 'end_drift_mm', 'cylinder_end_drift_mm');
 }

@@ -23,8 +23,11 @@ export function checkFrame(scope: Scope, answer: Body, know: Knowledge): void {
   const pieces = new Set(list(result.merged).flatMap((row) => [row.id, ...((row.members ?? []) as string[])]));
   const members = list(result.members);
   for (const member of members) checkPlace(scope, request, member, made, pieces);
-  for (const joint of list(result.joints)) checkJoint(scope, request, joint, members, made, pieces, know);
-  scope.covers('joints/*/gap_mm', 'joints/*/depth_mm');
+  for (const joint of list(result.joints)) {
+    checkJoint(scope, request, joint, members, made, pieces, know);
+    checkStated(scope, joint, members, made);
+  }
+  scope.covers('joints/*/gap_mm', 'joints/*/depth_mm').not('joints/*/fit_up', 'only that end and hole keep the gap where they stand, within alike_within_mm');
 }
 
 function checkCutList(scope: Scope, request: Body, result: Body, made: Map<string, Body>, know: Knowledge): void {
@@ -32,6 +35,7 @@ function checkCutList(scope: Scope, request: Body, result: Body, made: Map<strin
   const totals = result.totals as Numbers;
   let [blank, mass, count, all] = [0, 0, 0, 0];
   const members = list(request.members);
+  scope.not('cut_list/*/differs_at_most_mm', 'only that it is 0 of a part made once, and else within alike_within_mm');
   for (const row of rows) {
     const n = row.count as number;
     const ids = row.members as string[];
@@ -41,6 +45,7 @@ function checkCutList(scope: Scope, request: Body, result: Body, made: Map<strin
     const own = members.find(({id}) => id === row.part);
     const size = own && sizeOf(own, know.sizes);
     if (size) for (const name of ['outer_diameter_mm', 'wall_mm'] as const) scope.same('cut_list_size', row[name] as number, size[name], 1e-9, 'mm', where);
+    scope.most('cut_list_alike', row.differs_at_most_mm as number, n > 1 ? alike(request) : 0, 'mm', where);
     const part = made.get(where);
     if (!part) continue;
     const lengths = (part.result as Body).lengths as Numbers;
@@ -90,6 +95,31 @@ function checkPlace(scope: Scope, request: Body, member: Body, made: Map<string,
     'mm',
     where,
   );
+}
+
+/** Weld and groove of a joint are those of the end that is set on, or of the hole that is cut for the branch. */
+function checkStated(scope: Scope, joint: Body, members: Body[], made: Map<string, Body>): void {
+  const inside = joint.kind === 'set_in' || joint.kind === 'through';
+  const place = members.find(({id}) => id === joint[inside ? 'chord' : 'branch']);
+  const part = place && (made.get(String(place.part))?.result as Body | undefined);
+  if (!part) return;
+  const holes = list(part.holes).map((hole) => hole.length_mm as number);
+  const ends = (Object.values(part.ends as Body) as Body[]).filter((end) => (end.cutter_ids as string[]).length === 1); // of several partners each has its share
+  const through = () => holes.flatMap((one, i) => holes.slice(i + 1).map((other) => one + other)); // in and out
+  const welds = joint.kind === 'through' ? through() : inside ? holes : ends.map((end) => end.weld_mm as number);
+  const where = `${joint.branch} on ${joint.chord}`;
+  const check = (name: string, own: number[]) => {
+    const stated = joint[name] as number | undefined;
+    if (stated === undefined || !own.length) return;
+    scope.most('joint_figures', Math.min(...own.map((each) => Math.abs(each - stated))), 1e-9 * (1 + stated), '', where);
+    scope.covers(`joints/*/${name}`);
+  };
+  check('weld_mm', welds);
+  if (!inside)
+    check(
+      'groove_mm3',
+      ends.map((end) => end.groove_mm3 as number),
+    );
 }
 
 /** Edges of a part's end in the world. */

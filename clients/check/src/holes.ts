@@ -1,7 +1,7 @@
 /** Holes of a chord for a branch, in the chord's frame (docs/theory/intersections-and-bevels.md, section 8). */
 import {anglesOf, axialB, type Columns, grooveOf, local} from './bevel.js';
 import type {Scope} from './report.js';
-import type {TorchLine} from './wall.js';
+import {leavePlaces, type TorchLine} from './wall.js';
 import {axisOf, type Body, type Size, sizeOf, tube} from './solids.js';
 import {across, add, cross, dot, highest, integral, lineDistance, mix, mul, norm, onTube, RAD, sub, unit, type V3} from './space.js';
 
@@ -126,7 +126,8 @@ export function checkHole(scope: Scope, hole: Hole, result: Body): void {
     const own = Math.abs(integral(speed, a * RAD, (a + wrapped(b - a)) * RAD, 1e-11)); // the far hole runs against the branch's phase
     scope.same('hole_length', stated, own, 1e-7 + 1e-7 * own, 'mm', where);
   }
-  scope.covers('length_mm', ...Object.keys(points).map((name) => `points/${name}`));
+  scope.equal('turns', result.turns, 0);
+  scope.covers('length_mm', 'turns', ...Object.keys(points).map((name) => `points/${name}`));
   checkFitUp(scope, hole, result, points);
   checkBeam(scope, hole, result, points);
 }
@@ -197,6 +198,7 @@ function checkFitUp(scope: Scope, hole: Hole, result: Body, points: Columns): vo
 /** What the beam takes from the hole's wall and leaves on it, sampled along straight lines between the rows. */
 function checkBeam(scope: Scope, hole: Hole, result: Body, points: Columns): void {
   const stated = result.torch_line as unknown as TorchLine;
+  leavePlaces(scope);
   const n = (points.phi_deg as number[]).length;
   const column = (name: string) => points[name] as number[];
   const edge = (rho: number, phi: string, z: string) => column(phi).map((deg, i) => onTube(rho, deg * RAD, column(z)[i]));

@@ -182,6 +182,7 @@ export function checkMill(scope: Scope, request: Body, result: Body): void {
   scope.same('mill_positions', optimised.length, count, 0, '');
   optimised.forEach((row, i) => scope.same('mill_omega', path.rows.omega_deg[row], (360 * i) / count, 1e-9, 'deg', `row ${row}`));
   const figures = ['overcut', 'undercut', 'gap', 'grid_overcut', 'grid_undercut'].flatMap((name) => [`${name}_before_mm`, `${name}_mm`]);
+  scope.not('positions/evaluations', 'how often the search of the service measured');
   scope.covers(...['omega_deg', 'c_deg', 'x_mm', 'z_mm', 'b_deg', 'dz_mm', 'db_deg', ...figures].map((name) => `positions/${name}`));
   const face = -(result.swept as Numbers).root_face_min_mm <= path.check.qualify_mm;
   scope.equal('qualified', result.qualified, face && (path.rows.qualified as unknown as boolean[]).every((held) => held));

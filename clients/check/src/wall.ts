@@ -134,8 +134,13 @@ export interface TorchLine {
   left_phi_deg: number;
 }
 
+export function leavePlaces(scope: Scope): void {
+  for (const name of ['gouge_phi_deg', 'left_phi_deg']) scope.not(`torch_line/${name}`, 'one of many places that are nearly alike');
+}
+
 /** What the beam takes from the wall and leaves on it, sampled: as stated within 2e-3 mm or 0.8 %, and a share for the samples. */
 export function checkTorchLine(scope: Scope, cut: Cut, rows: Row[], stated: TorchLine): void {
+  leavePlaces(scope);
   if (cut.kerf === 0) {
     scope.most('gouge_stated', Math.max(Math.abs(stated.gouge_mm), Math.abs(stated.left_mm)), 1e-9, 'mm');
     scope.covers('torch_line/gouge_mm', 'torch_line/left_mm');
