@@ -3,7 +3,9 @@ import {strict as assert} from 'node:assert';
 import {test} from 'node:test';
 import {load} from './load.mjs';
 
-const {edgesOf, outside} = await load('src/pictures/section_solid.ts');
+const {cornersOf, edgesOf, outside, wallBetween} = await load('src/pictures/section_solid.ts');
+const {faceTable, partnersOf} = await load('src/pictures/section_part.ts');
+const {placedFrom, seenFrom} = await load('src/pictures/geometry.ts');
 const {printable} = await load('src/files.ts');
 
 const shapes = [[100, 50, 8], [50, 100, 8], [80, 80, 0], [60, 60, 30], [120, 40, 20]];
@@ -49,4 +51,59 @@ test('files that only round tubes have are not offered', () => {
   assert.deepEqual(printable(formats, true), formats);
   assert.deepEqual(printable(formats, false).map(({media, views}) => [media, views]),
     ['text/csv', 'image/svg+xml', 'image/vnd.dxf'].map((media) => [media, ['chart']]));
+  assert.ok(printable(formats, false, true).some(({media}) => media === 'application/x-dstv'), 'of a whole part there is NC1');
+});
+
+test('corners are where the outline is round', () => {
+  for (const shape of shapes) {
+    const [height, width, r] = shape, section = rowOf(shape), corners = cornersOf(section);
+    assert.equal(corners.length, r > 0 ? 4 : 0);
+    for (const [from, to] of corners) {
+      for (const girth of [from, (from + to) / 2, to]) {
+        const [x, y] = outside(section, girth);
+        assert.ok(Math.abs(Math.hypot(Math.abs(x) - height / 2 + r, Math.abs(y) - width / 2 + r) - r) < 1e-9, `${shape} at ${girth}`);
+      }
+    }
+  }
+});
+
+test('a wall goes straight along the tube from one edge to the other, whatever points each has, and over a jump', () => {
+  const at = (girth, z) => ({girth, at: z.map((height) => [3, 4, height])});
+  const [from, to] = wallBetween(40, at([0, 10, 10, 30], [0, 5, 7, 9]), at([0, 20], [100, 120]));
+  assert.equal(from.length, 6);
+  for (const place of [...from, ...to]) assert.deepEqual(place.slice(0, 2), [3, 4]);
+  assert.deepEqual(from.map(([, , z]) => z), [0, 0, 5, 7, 8, 9]);
+  assert.deepEqual(to.map(([, , z]) => z), [100, 100, 110, 110, 120, 110]);
+});
+
+const part = {
+  frame: {origin_mm: [0, 0, -27], x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1], in: 'start'},
+  lengths: {work_point_mm: 1200},
+  side_lengths: {face_mm: [1197, 1170, 1140, 1170], corner_mm: [1196.1, 1141.8, 1141.8, 1196.1]},
+  ends: {
+    start: {points: {z_outer_mm: [0, 57]}, faces: [1, 2, 3, 4].map((face) => ({face, angle_deg: 45, saw_tilt_deg: -45}))},
+    finish: {points: {z_outer_mm: [1197, 1197]}, faces: [1, 2, 3, 4].map((face) => (face === 1 ? {face} : {face, angle_deg: 0}))},
+  },
+};
+
+test('the faces as a table: a blade only where a plane cuts, and no angle of a face without a flat', () => {
+  const {head, rows} = faceTable(part);
+  assert.equal(head.length, 6);
+  assert.deepEqual(rows[0], ['1', '1197', '45', '-45', '–', '1196.1']);
+  assert.deepEqual(rows[2], ['3', '1140', '45', '-45', '0', '1141.8']);
+});
+
+test('the partners of both ends lie at their ends', () => {
+  const stile = {kind: 'rectangular_tube', width_mm: 60, height_mm: 60, corner_radius_mm: 6, axis: {point_mm: [5, 10, 0], direction: [1, 0, 0]}, up: [0, 0, 1]};
+  const request = {ends: {start: {cutters: [{kind: 'plane', point_mm: [0, 0, 0], normal: [1, 0, 1]}]}, finish: {cutters: [stile]}}};
+  const [plane, box] = partnersOf(request, part, 60, new Map());
+  assert.ok(Math.abs(plane.normal[0] * plane.point[0] + plane.normal[2] * (plane.point[2] - 27)) < 1e-9, 'through the work point of the start');
+  assert.deepEqual(box.point.slice(1), [-10, 1227]);
+  assert.deepEqual(box.up.map(Math.round).map((v) => v + 0), [0, 0, -1]);
+});
+
+test('a frame carries a body there and back', () => {
+  const frame = {origin: [1, 2, 3], x: [0, 1, 0], y: [-1, 0, 0], z: [0, 0, 1]};
+  const box = {kind: 'box', point: [4, 5, 6], direction: [1, 0, 0], up: [0, 0, 1], width: 1, height: 1, corner: 0, half: 1, tone: 0};
+  assert.deepEqual(seenFrom(frame, placedFrom(frame, box)), box);
 });

@@ -71,13 +71,17 @@ export class Console {
     readonly examples: Example[],
     private readonly endpoints: Endpoint[],
     machines: Machine[],
-    tubes: Tube[],
+    {tubes, rectangular_tubes}: {tubes: Tube[]; rectangular_tubes: {size: string}[]},
   ) {
     takeOver();
     const sizes = new Map(tubes.map((t) => [t.size, {outer: t.outer_diameter_mm, wall: t.wall_mm}]));
     this.context = contextOf(sizes, new Map(machines.map((m) => [m.name, m.machine])));
     this.schedules = [...new Set([...sizes.keys()].flatMap((size) => /^NPS \S+ (.+)$/.exec(size)?.[1] ?? []))];
-    this.form = new Form(contract, {machine: machines.map((m) => m.name), size: [...sizes.keys()]}, () => this.changed());
+    this.form = new Form(
+      contract,
+      {machine: machines.map((m) => m.name), size: [...sizes.keys()], rectangular_size: rectangular_tubes.map(({size}) => size)},
+      () => this.changed(),
+    );
     addEventListener('hashchange', ({newURL}) => {
       const {hash} = new URL(newURL);
       if (hash !== this.written) void this.arrive(hash);

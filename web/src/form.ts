@@ -2,13 +2,14 @@ import {signal} from '@preact/signals';
 import {Selection} from './frame/selection';
 import {said} from './hint';
 import {History} from './history';
-import {at, clone, put, sharing, type Json, type Row} from './json';
+import {at, clone, isRow, put, sharing, type Json, type Row} from './json';
 import type {Contract, Schema} from './schema';
 import type {Issue} from './service';
 import {quantity} from './units';
 
 /** Names that the service lists, by the fields that they fill. */
-export type Choices = Record<string, string[]> & {machine: string[]; size: string[]};
+export type Choices = Record<string, string[]> & {machine: string[]; size: string[]; rectangular_size: string[]};
+const rectangular = 'rectangular_tube';
 interface Complaint {
   id: string;
   text: string;
@@ -67,6 +68,45 @@ export class Form {
     this.body = body;
     this.history.record(body);
     this.redraw(towards);
+  }
+
+  /** A value with the kind that its size has: tubes of both kinds are named by `size` alone. */
+  private meant(value: Json | undefined): Json | undefined {
+    if (!isRow(value)) return value;
+    if (isRow(value['target'])) return {...value, target: this.meant(value['target']) as Json};
+    return 'size' in value && !('kind' in value) && this.choices.rectangular_size.includes(String(value['size'])) ? {...value, kind: rectangular} : value;
+  }
+
+  branchOf(branches: Schema[], value: Json | undefined): number {
+    return this.contract.branchOf(branches, this.meant(value));
+  }
+
+  /** The names that a field has a choice of, by the kind of what it is in. */
+  namesFor(pointer: string): string[] | undefined {
+    const slash = pointer.lastIndexOf('/');
+    const [key, within] = [pointer.slice(slash + 1), this.meant(at(this.body, pointer.slice(0, slash)))];
+    return key === 'size' && isRow(within) && within['kind'] === rectangular ? this.choices.rectangular_size : this.choices[key];
+  }
+
+  /** What is at a pointer, written in another branch; a size stays only if tubes of that kind have it. */
+  rewrite(pointer: string, branch: Schema): void {
+    const old = at(this.body, pointer); // what is drawn may be older
+    const kind = this.contract.resolve(branch.properties?.['kind'] ?? {}).const;
+    const sizes = kind === rectangular ? this.choices.rectangular_size : this.choices.size;
+    const kept = isRow(old) && 'size' in old && !sizes.includes(String(old['size'])) ? put(old, '/size', undefined) : old;
+    const made = this.contract.make(branch, kept, pointer.slice(pointer.lastIndexOf('/') + 1));
+    if (pointer) this.replace(this.fitted(put(this.body, pointer, made)), pointer);
+    else this.replace(made as Row);
+  }
+
+  /** The request in the branch that its tube needs: what that one does not have is left out, because the service refuses it. */
+  private fitted(body: Row): Row {
+    const branches = this.contract.branches(this.drawn.value.schema);
+    const before = branches[this.branchOf(branches, this.body)];
+    if (!before) return body;
+    const alike = this.contract.alike(branches, before);
+    const needed = alike[this.branchOf(alike, body)] as Schema;
+    return needed === before ? body : (this.contract.make(needed, body) as Row);
   }
 
   /** One step of several changes, made in a copy. */

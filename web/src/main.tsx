@@ -19,9 +19,9 @@ async function begin(): Promise<void> {
       fetched<{examples: Example[]}>('/v1/examples'),
       fetched<{endpoints: Endpoint[]}>('/v1/version'),
       fetched<{machines: Machine[]}>('/v1/machines'),
-      fetched<{tubes: Tube[]}>('/v1/tubes'),
+      fetched<{tubes: Tube[]; rectangular_tubes: {size: string}[]}>('/v1/tubes'),
     ]);
-    const page = new Console(new Contract(contract), examples.examples, version.endpoints, machines.machines, tubes.tubes);
+    const page = new Console(new Contract(contract), examples.examples, version.endpoints, machines.machines, tubes);
     render(<Shell console={page} />, root);
     await page.arrive(location.hash);
   } catch (failure) {

@@ -33,13 +33,14 @@ export function leadsOf(endpoint: string, body: Row, answer: Answer, {sizes}: Pi
   const own = without(body);
   if (endpoint === 'intersections')
     return [{name: 'Cut and bevel', endpoint: 'bevel-tables', body: {...picked(own, ['target', 'cutters', 'node']), ...usualCut}}];
-  // Those for comparison only (`inward`) are cut by no machine; parts and schedules are of round tubes.
-  if (endpoint === 'bevel-tables' && answer.result['b_sign'] !== 'inward' && !isRow(answer.result['section']))
+  const round = !isRow(answer.result['section']);
+  // Those for comparison only (`inward`) are cut by no machine; schedules are of round tubes.
+  if (endpoint === 'bevel-tables' && answer.result['b_sign'] !== 'inward')
     return [
       {name: 'Part', endpoint: 'parts', body: partOf(body, answer.result)},
-      {name: 'Pulses', endpoint: 'pulse-schedules', body: {cut: own, ...usualMotion}},
+      ...(round ? [{name: 'Pulses', endpoint: 'pulse-schedules', body: {cut: own, ...usualMotion}}] : []),
     ];
-  if (endpoint === 'parts') return pulsesOf(answer, sizes);
+  if (endpoint === 'parts' && round) return pulsesOf(answer, sizes);
   if (endpoint === 'grooves') {
     const schema = contract.request(path('mill-paths')) ?? {};
     return [{name: 'Mill path', endpoint: 'mill-paths', body: contract.make(schema, {groove: own}) as Row}];

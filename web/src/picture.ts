@@ -198,6 +198,9 @@ export interface Ribbon {
   a: Vector[];
   b: Vector[];
   tone: string;
+  /** Of a cut, from its inner edge to its outer one: what it is tinted by. */
+  bevel?: number[];
+  gaps?: Gaps;
 }
 /** The tool at every point of the cursor: a torch along a line of the wall, or a cone. */
 export type Tool =

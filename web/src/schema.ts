@@ -47,6 +47,9 @@ interface Document {
   components: {schemas: Record<string, Schema>; parameters: Record<string, {name: string; description?: string; schema: Schema}>};
 }
 
+/** Fields whose value names the kind of what they are in. */
+const telling = ['kind', 'method', 'rule'];
+
 // Initial value of a new field, if the contract leaves it open: a joint that can be computed.
 const beginnings: Record<string, Json> = {
   outer_diameter_mm: 60,
@@ -93,6 +96,9 @@ const beginnings: Record<string, Json> = {
   ],
   member: 'branch',
   end: 'start',
+  'rectangular_tube.size': 'SHS 60x60x4 EN 10219',
+  'flat_oval_tube.width_mm': 40,
+  'target.length_mm': 1000,
   'chord.outer_diameter_mm': 168.3,
   'chord.wall_mm': 8,
   'branch.outer_diameter_mm': 88.9,
@@ -154,6 +160,18 @@ export class Contract {
     });
   }
 
+  /** The branches that are called as one of them is. */
+  alike(branches: Schema[], chosen: Schema): Schema[] {
+    const name = this.branchName(branches, chosen);
+    return branches.filter((branch) => this.branchName(branches, branch) === name);
+  }
+
+  /** Branches of one name as one: they differ by the tube that is cut, whose own choice has the kinds of all of them. */
+  together(branches: Schema[], chosen: Schema): Schema {
+    const tubes = this.alike(branches, chosen).flatMap(({properties}) => (properties?.['target'] ? [properties['target']] : []));
+    return tubes.length > 1 ? {...chosen, properties: {...chosen.properties, target: {oneOf: tubes}}} : chosen;
+  }
+
   /** The branch that a value is written in, or the first. */
   branchOf(branches: Schema[], value: Json | undefined): number {
     const scores = branches.map((branch) => this.score(branch, value));
@@ -174,13 +192,21 @@ export class Contract {
     for (const [key, inner] of Object.entries(branch.properties)) {
       const choices = this.resolve(inner);
       if (!(key in value)) continue;
-      if ('const' in choices) score += choices.const === value[key] ? 20 : -40;
+      const decides = branch.required?.includes(key) || telling.includes(key);
+      if ('const' in choices && decides) score += choices.const === value[key] ? 20 : -40;
+      else if ('const' in choices) score += choices.const === value[key] ? 10 : -10;
       else if (choices.enum) score += choices.enum.includes(value[key] as Json) ? 10 : -10;
-      else score += 1;
+      else score += key === 'target' ? this.cuts(choices, value[key] as Json) : 1;
     }
     for (const key of branch.required ?? []) if (key in value) score += 2;
     for (const key of Object.keys(value)) if (!(key in branch.properties)) score -= 5;
     return score;
+  }
+
+  /** The tube that is cut decides more than all fields beside it, because those that its kind does not have are left out. */
+  private cuts(schema: Schema, value: Json): number {
+    const branches = this.branches(schema);
+    return !branches.length || branches.some((branch) => this.score(branch, value) >= 0) ? 50 : -50;
   }
 
   /** Returns "tube · outer Ø, axis": the fields that distinguish a branch from the others. */
@@ -193,8 +219,11 @@ export class Contract {
     const like = branches.filter((other) => other.properties && this.kind(other) === kind);
     const alike = like.length === branches.length;
     if (like.length === 1 && kind) return kind;
-    const own = (branch.required ?? []).filter((key) => !like.every((other) => other.required?.includes(key)));
+    const shared = (key: string) => like.filter((other) => other.required?.includes(key)).length;
+    const own = (branch.required ?? []).filter((key) => shared(key) < like.length);
+    const fewest = Math.min(...own.map(shared));
     const by = own
+      .filter((key) => shared(key) === fewest)
       .slice(0, 2)
       .map((key) => label(key))
       .join(', ');
@@ -210,12 +239,12 @@ export class Contract {
   kind(branch: Schema): string {
     for (const [key, inner] of Object.entries(branch.properties ?? {})) {
       const schema = this.resolve(inner);
-      if (!branch.required?.includes(key) && !['kind', 'method', 'rule'].includes(key)) continue;
+      if (!branch.required?.includes(key) && !telling.includes(key)) continue;
       if ('const' in schema && typeof schema.const === 'string') return choice(schema.const);
     }
     for (const [key, inner] of Object.entries(branch.properties ?? {})) {
       const schema = this.resolve(inner);
-      if (schema.enum && ['rule', 'method', 'kind'].includes(key)) return schema.enum.map(choice).join(' / ');
+      if (schema.enum && telling.includes(key)) return schema.enum.map(choice).join(' / ');
     }
     return '';
   }
@@ -233,10 +262,12 @@ export class Contract {
     const schema = this.resolve(given);
     if ('const' in schema) return schema.const as Json;
     const branches = this.branches(schema);
-    if (branches.length > 0 && !schema.properties) return this.make(branches[0] as Schema, old, name, within);
+    if (branches.length > 0 && !schema.properties) return this.make(branches[this.branchOf(branches, old)] as Schema, old, name, within);
     if (schema.enum) return (old !== undefined && schema.enum.includes(old) ? old : (schema.default ?? schema.enum[0])) as Json;
     if (schema.properties) return this.makeRow(schema, isRow(old) ? old : {}, name);
     if (old !== undefined && typeof old === (schema.type === 'integer' ? 'number' : schema.type)) return old;
+    if (schema.type === 'array' && Array.isArray(old) && old.length >= (schema.minItems ?? 0) && old.length <= (schema.maxItems ?? Infinity))
+      return old.map((each) => this.make(schema.items ?? {}, each, name));
     const beginning = beginnings[`${within}.${name}`] ?? beginnings[name];
     if (beginning !== undefined) return clone(beginning);
     if (schema.type === 'array') {
@@ -263,9 +294,13 @@ export class Contract {
       oneOf?.some((way) => way.required?.every((key) => key in old)) ? [] : (oneOf?.[0]?.required ?? []),
     );
     const asked = [...(schema.required ?? []), ...ways];
+    const kind = this.resolve(schema.properties?.['kind'] ?? {}).const;
     for (const [key, inner] of Object.entries(schema.properties ?? {})) {
-      if (asked.includes(key) || 'const' in this.resolve(inner)) made[key] = this.make(inner, old[key], key, name);
-      else if (key in old) made[key] = old[key] as Json;
+      const one = this.resolve(inner);
+      const implied = 'const' in one && one.const === one.default && !telling.includes(key);
+      const own = asked.includes(key) || ('const' in one && !implied);
+      const within = typeof kind === 'string' && `${kind}.${key}` in beginnings ? kind : name;
+      if (own || (key in old && !implied)) made[key] = this.make(inner, old[key], key, within);
     }
     return made;
   }

@@ -11,16 +11,21 @@ export function gapsOf(points: Row): Gaps | undefined {
 
 export const gapScale = (most: number): [string, string] => ['gap 0', withUnit(most, 'mm')];
 
-/** The gap of the square cut over phi, and of the same end with a bevel. */
-export function gapChart(points: Row, shared: Pick<Chart, 'link' | 'partners' | 'partnerNames'>): Chart {
+const overPhi = (points: Row) => ({x: {name: 'φ', unit: '°', values: column(points['phi_deg'])}, period: 360});
+
+/** The gap of the square cut over phi, or what else is the way round, and of the same end with a bevel. */
+export function gapChart(
+  points: Row,
+  shared: Pick<Chart, 'link' | 'partners' | 'partnerNames'>,
+  over: Pick<Chart, 'x' | 'period' | 'bands' | 'marks'> = overPhi(points),
+): Chart {
   const of = (name: string) => column(points[name]);
   return {
     ...shared,
     id: 'gap',
     title: 'Gap to the partner',
     unit: 'mm',
-    x: {name: 'φ', unit: '°', values: of('phi_deg')},
-    period: 360,
+    ...over,
     height: 205,
     zero: true,
     series: [

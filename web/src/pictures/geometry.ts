@@ -99,13 +99,29 @@ export function squareEnd(z: number): EndCurve {
 
 const turnedInto = (to: Frame, v: Vector): Vector => [dot(v, to.x), dot(v, to.y), dot(v, to.z)];
 
-/** Transforms a partner, given in the coordinates of `to`, into the frame `to`. */
-export function seenFrom(to: Frame | undefined, given: Partner): Partner {
-  if (!to) return given;
-  const point = turnedInto(to, add(given.point, to.origin, -1));
-  if (given.kind === 'plane') return {...given, point, normal: turnedInto(to, given.normal)};
-  const direction = turnedInto(to, given.direction);
-  if (given.kind === 'box') return {...given, point, direction, up: turnedInto(to, given.up)};
-  if (given.kind === 'elbow') return {...given, point, direction, inwards: turnedInto(to, given.inwards)};
+function carried(given: Partner, place: (p: Vector) => Vector, turn: (v: Vector) => Vector): Partner {
+  const point = place(given.point);
+  if (given.kind === 'plane') return {...given, point, normal: turn(given.normal)};
+  const direction = turn(given.direction);
+  if (given.kind === 'box') return {...given, point, direction, up: turn(given.up)};
+  if (given.kind === 'elbow') return {...given, point, direction, inwards: turn(given.inwards)};
   return {...given, point, direction};
 }
+
+/** Transforms a partner, given in the coordinates of `to`, into the frame `to`. */
+export const seenFrom = (to: Frame | undefined, given: Partner): Partner =>
+  to
+    ? carried(
+        given,
+        (p) => turnedInto(to, add(p, to.origin, -1)),
+        (v) => turnedInto(to, v),
+      )
+    : given;
+
+/** Transforms a partner, given in the frame `from`, into the coordinates of that frame. */
+export const placedFrom = (from: Frame, given: Partner): Partner =>
+  carried(
+    given,
+    (p) => placed(from, p),
+    (v) => placed({...from, origin: [0, 0, 0]}, v),
+  );

@@ -10,11 +10,14 @@ import {gapScale, gapsOf, webFigures} from './gaps';
 import {table} from './generic';
 import {bounds, frame, onTube, partner, placed, seenFrom, tube, type Sizes} from './geometry';
 import {holeCharts, opening} from './hole';
+import {isSection} from './section';
+import {sectionPart} from './section_part';
 
 const member = (request: Row, id: unknown) => rowsOf(request['members']).find((each) => each['id'] === id);
 
 /** A whole member: lengths, check dimensions, and each end as the table it is. */
 export async function part(_: Row, answer: Answer, context: Context): Promise<Picture> {
+  if (isSection(answer)) return sectionPart(answer, context.sizes);
   const {result, request} = answer;
   const {outer, wall} = tube(request['target'] ?? member(request, request['member']), context.sizes);
   const ends = result['ends'] as Row;

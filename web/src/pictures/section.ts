@@ -1,10 +1,11 @@
 import {isRow, type Json, type Row} from '../json';
-import {column, type Band, type Chart, type Mark, type Picture} from '../picture';
+import {column, type Band, type Chart, type Mark, type Picture, type Table} from '../picture';
 import type {Answer} from '../service';
 import {choice, number, term} from '../words';
 import {facts, figure, figures, plural, readings} from './facts';
+import {gapChart, gapsOf} from './gaps';
 import {bounds, type Sizes} from './geometry';
-import {edgeOf, edgesOf, sectionSolid} from './section_solid';
+import {cornersOf, edgeOf, edgesOf, sectionSolid} from './section_solid';
 
 /** Pictures of a target that is not round: charts along the girth, and the end in space. */
 export const isSection = (answer: Answer) => isRow(answer.result['section']);
@@ -21,7 +22,7 @@ const marksOf = (events: Row[], surface: Json | undefined): Mark[] =>
     .filter((event) => event['surface'] === surface && event['kind'] !== 'tangent_line')
     .map((event) => ({x: Number(event['girth_mm']), tone: 'mark', text: choice(event['kind'])}));
 
-function eventTable(events: Row[], names: string[]) {
+function eventTable(events: Row[], names: string[]): Table {
   const name = (value: Json | undefined) => names[Number(value)] ?? String(value);
   return {
     title: 'Junctions and ends of flats',
@@ -49,23 +50,24 @@ function bandsOf(result: Row, girth: number): Band[] {
   });
 }
 
-export function sectionTable(answer: Answer, sizes: Sizes): Picture {
-  const {request, result} = answer;
-  const points = result['points'] as Row,
-    section = result['section'] as Row;
-  const names = namesOf(request);
+/** Where the outline is round. */
+const cornerBands = (section: Row): Band[] => cornersOf(section).map(([from, to]) => ({from, to, tone: 'steel', text: 'corner'}));
+
+/** One end over the girth: its bevel, or where the cut is square its gaps, and its two edges. */
+export function sectionCharts(request: Row, end: Row, section: Row, link: string): Chart[] {
+  const points = end['points'] as Row;
   const of = (name: string) => column(points[name]);
   const [b, raw] = [of('b_deg'), of('b_raw_deg')];
   const girth = Number(section['girth_mm']);
-  const events = rowsIn(result, 'events');
   const torch = isRow(request['torch']) ? request['torch'] : {};
   const shared = {
-    link: 'cut',
+    link,
     x: {name: 'girth', unit: 'mm', values: of('girth_mm')},
     period: girth,
     partners: of('cutter'),
-    partnerNames: names,
-    marks: marksOf(events, request['root_surface']),
+    partnerNames: namesOf(request),
+    marks: marksOf(rowsIn(end, 'events'), request['root_surface']),
+    bands: cornerBands(section),
   };
   const charts: Chart[] = [
     {
@@ -79,7 +81,7 @@ export function sectionTable(answer: Answer, sizes: Sizes): Picture {
         {name: 'least that clears', about: 'With less, a partner would enter the wall.', values: of('b_required_deg'), tone: 'floor', width: 1},
         {name: 'after', about: 'As the torch follows it.', values: b, tone: 'after', width: 2.2},
       ],
-      bands: bandsOf(result, girth),
+      bands: [...shared.bands, ...bandsOf(end, girth)],
       limits: ['min_deg', 'max_deg'].map((name) => ({y: Number(torch[name] ?? NaN), text: 'torch limit'})).filter((l) => Number.isFinite(l.y)),
     },
     {
@@ -94,21 +96,35 @@ export function sectionTable(answer: Answer, sizes: Sizes): Picture {
       ],
     },
   ];
-  const [low, high] = bounds(b);
+  if (gapsOf(points)) charts.splice(0, 1, gapChart(points, shared, shared));
+  return charts;
+}
+
+/** The values of a row of an end, at the cursor. */
+export const sectionReadings = (points: Row, i: number) =>
+  readings(points, i, [
+    ...['girth_mm', 'normal_deg', 'face', 'b_raw_deg', 'b_deg', 'dihedral_deg'],
+    ...['z_outer_mm', 'z_inner_mm', 'gap_mm', 'beam_mm', 'gap_outer_mm', 'gap_inner_mm'],
+  ]);
+
+export function sectionTable(answer: Answer, sizes: Sizes): Picture {
+  const {request, result} = answer;
+  const points = result['points'] as Row,
+    section = result['section'] as Row;
+  const [low, high] = bounds(column(points['b_deg']));
   const laser = isRow(result['tube_laser']) ? result['tube_laser'] : undefined;
   const gap = laser && isRow(laser['gap']) ? laser['gap'] : undefined;
   return {
-    solid: sectionSolid(shared.link, edgesOf(section, points), rowsIn(request, 'cutters'), sizes),
-    charts,
+    solid: sectionSolid('cut', edgesOf(section, points), rowsIn(request, 'cutters'), sizes),
+    charts: sectionCharts(request, result, section, 'cut'),
     figures: [
       {name: 'least B', value: number(low, '°'), unit: '°', about: 'Of the finished cut.'},
       {name: 'greatest B', value: number(high, '°'), unit: '°', about: 'Of the finished cut.'},
       ...figures(gap, ['greatest_mm'], 'gap'),
       figure('length_mm', result['length_mm']),
     ],
-    tables: [facts('section', section), eventTable(events, names)],
-    readout: (i) =>
-      readings(points, i, ['girth_mm', 'normal_deg', 'face', 'b_raw_deg', 'b_deg', 'dihedral_deg', 'z_outer_mm', 'z_inner_mm', 'gap_mm', 'beam_mm']),
+    tables: [facts('section', section), eventTable(rowsIn(result, 'events'), namesOf(request))],
+    readout: (i) => sectionReadings(points, i),
     said: low === high ? `B is ${number(low, '°')}° all round.` : `B from ${number(low, '°')} to ${number(high, '°')}°.`,
   };
 }

@@ -26,6 +26,19 @@ export function outside(section: Row, girth: number): [x: number, y: number] {
   }
 }
 
+/** The stretches of the way round where the outline is round, from the corner after face 1 on. */
+export function cornersOf(section: Row): [from: number, to: number][] {
+  const [height, width, r] = ['height_mm', 'width_mm', 'corner_radius_mm'].map((key) => Number(section[key])) as [number, number, number];
+  const arc = (Math.PI / 2) * r;
+  const flats = [width - 2 * r, height - 2 * r];
+  let at = (flats[0] as number) / 2;
+  return [1, 2, 3, 4].flatMap((face): [number, number][] => {
+    const from = at;
+    at = from + arc + (flats[face % 2] as number);
+    return r > 0 ? [[from, from + arc]] : [];
+  });
+}
+
 /** Both edges of a table, row by row: the inner one at the end of each line across the wall. */
 export function edgesOf(section: Row, points: Row): [outer: Vector[], inner: Vector[]] {
   const of = (name: string) => column(points[name]);
@@ -37,6 +50,38 @@ export function edgesOf(section: Row, points: Row): [outer: Vector[], inner: Vec
     return [x - (wall[i] as number) * Math.cos(nu), y - (wall[i] as number) * Math.sin(nu), zInner[i] as number];
   });
   return [outer, inner];
+}
+
+/** One wall's edge of an end: the way round, ascending, and the place. */
+interface Curve {
+  girth: number[];
+  at: Vector[];
+}
+
+/** The place at a way round; where a curve jumps, before the jump or after it. */
+function placeAt({girth, at}: Curve, whole: number, way: number, after: boolean): Vector {
+  const next = girth.findIndex((each) => (after ? each > way : each >= way));
+  const last = girth.length - 1;
+  const [i, j] = [next < 0 ? last : next - 1, next < 0 ? 0 : next];
+  const [a, b] = [at[i < 0 ? last : i] as Vector, at[j] as Vector];
+  const from = i < 0 ? (girth[last] as number) - whole : (girth[i] as number);
+  const to = next < 0 ? (girth[0] as number) + whole : (girth[j] as number);
+  const share = to > from ? (way - from) / (to - from) : 0;
+  return [0, 1, 2].map((k) => (a[k] as number) + share * ((b[k] as number) - (a[k] as number))) as Vector;
+}
+
+/** A wall between two edges, in columns along the tube: one at every point of either, because the ends have points of their own. */
+export function wallBetween(whole: number, from: Curve, to: Curve): [from: Vector[], to: Vector[]] {
+  const columns = [from, to].flatMap((own, side) =>
+    own.girth.map((way, i) => {
+      const before = own.girth[i + 1] === way && own.girth[i - 1] !== way;
+      const mine = own.at[i] as Vector;
+      const other = placeAt(side ? from : to, whole, way, !before);
+      return {way, rank: before ? 0 : 1, a: side ? other : mine, b: side ? mine : other};
+    }),
+  );
+  columns.sort((a, b) => a.way - b.way || a.rank - b.rank);
+  return [columns.map(({a}) => a), columns.map(({b}) => b)];
 }
 
 /** The place on a closed line that is nearest to p, seen along the tube. */

@@ -407,8 +407,10 @@ function elbow(partner: Extract<Partner, {kind: 'elbow'}>, material: ShaderMater
 const outlineOf = (points: number[][], line: LineBasicMaterial) =>
   new Line(new BufferGeometry().setFromPoints([...points, points[0] as number[]].map((p) => new Vector3(p[0], p[1], p[2]))), line);
 
-export function ribbon(given: Ribbon): Mesh {
+export function ribbon(given: Ribbon, span: Span): Mesh {
   const tone = given.tone === 'bevel' ? 'bevel-mid' : given.tone;
+  const tint = tintOf(given.bevel, given.gaps, span);
+  if (tint) return new Mesh(strip(given.a, given.b, true, undefined, tint), face(true));
   return new Mesh(strip(given.a, given.b, true), steel(tone));
 }
 

@@ -104,7 +104,7 @@ export class Stage {
     this.content.add(
       ...solid.tubes.map((tube) => cutTube(tube, before, solid.tint)),
       ...(solid.holed ?? []).map((tube) => holedTube(tube, solid.tint)),
-      ...(solid.ribbons ?? []).map(ribbon),
+      ...(solid.ribbons ?? []).map((each) => ribbon(each, solid.tint)),
       ...(solid.lines ?? []).map((l) => drawnLine(l.points, l.tone)),
       this.partners,
     );

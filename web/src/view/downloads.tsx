@@ -78,7 +78,7 @@ interface Given {
 
 /** The files of an answer, by what they are for: the options of that purpose, and a button for every format and drawing. The file is the service's. */
 export function Downloads({endpoint, name, body, formats: all, answer, program}: Given) {
-  const formats = printable(all, !isSection(answer));
+  const formats = printable(all, !isSection(answer), endpoint === 'parts');
   const offered = purposesOf(formats);
   const options = formats.flatMap((format) => format.options);
   const [given, give] = useState<Values>(() => ({...Object.fromEntries(options.map((option) => [option.name, beginning(option)])), ...remembered()}));

@@ -90,8 +90,7 @@ export function Input(given: Value & {name: string}) {
     'aria-label': [sentence(name), shownUnit(unit(lastKey(pointer)))].filter(Boolean).join(', '),
     ...useTold(pointer),
   };
-  const key = lastKey(pointer);
-  const names = schema.type === 'string' || typeof value === 'string' ? form.choices[key] : undefined;
+  const names = schema.type === 'string' || typeof value === 'string' ? form.namesFor(pointer) : undefined;
   if (names?.length) return <Combo {...given} names={names} shared={shared} />;
   if (schema.type !== 'array' && schema.enum && !isRow(value)) return <Select {...given} choices={schema.enum} shared={shared} />;
   if (schema.type === 'boolean') {

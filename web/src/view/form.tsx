@@ -71,17 +71,19 @@ function Parts({schema: given, value, pointer}: Value) {
   const schema = contract.resolve(given);
   const branches = contract.branches(schema);
   if (branches.length < 2 || schema.properties) return <Inner schema={schema} value={value} pointer={pointer} />;
-  const chosen = contract.branchOf(branches, value);
+  const branch = branches[form.branchOf(branches, value)] as Schema;
+  const shown = contract.together(branches, branch);
+  const named = branches.map((each) => sentence(contract.branchName(branches, each)));
+  const names = pointer ? named : [...new Set(named)];
   const change = (index: number) => {
-    const next = contract.make(branches[index] as Schema, at(form.body, pointer), lastKey(pointer)); // what is drawn may be older
-    if (pointer) form.put(pointer, next);
-    else form.replace(next as Row);
+    const alike = pointer ? [branches[index] as Schema] : branches.filter((_, i) => named[i] === names[index]);
+    form.rewrite(pointer, alike[form.branchOf(alike, at(form.body, pointer))] as Schema);
   };
-  const names = branches.map((branch) => sentence(contract.branchName(branches, branch)));
+  const chosen = pointer ? branches.indexOf(branch) : names.indexOf(named[branches.indexOf(branch)] as string);
   return (
     <>
       <Way pointer={pointer} title={pointer ? hintOf(schema, pointer) : 'Form of the job.'} names={names} chosen={chosen} change={change} />
-      <Inner schema={branches[chosen] as Schema} value={value} pointer={pointer} />
+      <Inner schema={shown} value={value} pointer={pointer} />
     </>
   );
 }
@@ -100,7 +102,7 @@ function Way({pointer, title, names, chosen, change}: {pointer: string; title: s
           onChange={(event) => change(event.currentTarget.selectedIndex)}
         >
           {names.map((name, i) => (
-            <option key={name} value={String(i)}>
+            <option key={i} value={String(i)}>
               {name}
             </option>
           ))}
@@ -132,6 +134,7 @@ function Members({schema, value, pointer}: Value & {value: Row}) {
     else if (key in value || required) large.push(<Group key={key} {...member} required={required} />);
     else if (!form.contract.fixed(member.schema)) absent.push(<Offer key={key} schema={member.schema} pointer={member.pointer} />);
   }
+  for (const key of Object.keys(value)) if (!Object.hasOwn(schema.properties ?? {}, key)) large.push(<Stranger key={key} pointer={join(pointer, key)} />);
   const parts = [small.length > 0 && <div class="grid">{small}</div>, large];
   // Tubes first, because people change them most.
   if (pointer === '') parts.reverse();
@@ -161,6 +164,22 @@ function Remover({name, pointer, act}: {name: string; pointer: string; act(): vo
     <button type="button" class="remove" aria-label={`Remove ${name}`} title={`Remove ${name}`} data-removes={pointer} onClick={act}>
       ×
     </button>
+  );
+}
+
+/** What this form of a request does not have, from a file or a link: it is refused until it is removed. */
+function Stranger({pointer}: {pointer: string}) {
+  const form = useForm();
+  return (
+    <>
+      <div class="group">
+        <p class="stranger" tabIndex={-1} data-holds={pointer}>
+          {sentence(called(pointer))} <span class="soft">does not apply here</span>
+        </p>
+        <Remover name={called(pointer)} pointer={pointer} act={() => form.put(pointer, undefined)} />
+      </div>
+      <Complaints at={pointer} />
+    </>
   );
 }
 
@@ -210,12 +229,12 @@ function List({schema, value, pointer}: Value & {value: Json}) {
   if (!item.properties && !item.oneOf) return <Field schema={schema} value={value} pointer={pointer} />;
   const items = Array.isArray(value) ? value : [];
   const branches = item.oneOf ? contract.branches(item) : [item];
-  const kinds = items.map((each) => branches[contract.branchOf(branches, each)] as Schema);
+  const kinds = items.map((each) => branches[form.branchOf(branches, each)] as Schema);
   const last = items.length - 1;
   const add = (branch: Schema) => {
     const typed = at(form.body, pointer); // what is drawn may be older
     const own = Array.isArray(typed) ? typed : [];
-    const made = contract.make(branch, branch === kinds[last] ? own[last] : undefined);
+    const made = contract.make(branch, branch === kinds[last] ? withoutLists(own[last]) : undefined);
     const named =
       isRow(made) && typeof made['id'] === 'string' ? {...made, id: freeName(new Set(own.map((each) => String(at(each, '/id')))), made['id'])} : made;
     form.replace(put(form.body, pointer, [...own, named]), join(pointer, own.length));
@@ -253,6 +272,9 @@ function List({schema, value, pointer}: Value & {value: Json}) {
     </>
   );
 }
+
+/** Places are not those of the row before: two bodies in one place are refused. */
+const withoutLists = (value: Json | undefined) => JSON.parse(JSON.stringify(value ?? null, (_, each) => (Array.isArray(each) ? undefined : each))) as Json;
 
 /** Of a list that a table shows in full: the fields of the row that is chosen there, else of the first. */
 function ChosenRow({schema, value, pointer}: Value & {value: Json}) {
