@@ -72,6 +72,44 @@ export const checks = {
     await page.context().close();
   },
 
+  'a part of a round tube becomes one of another shape, and a round one again': async ({browser, origin}) => {
+    const page = await open(browser, origin, '#/parts/base-post');
+    await answered(page);
+    const tube = page.locator('select[data-holds="/target"]');
+    const shape = async (name) => {
+      await then(page, () => tube.selectOption({label: name}));
+      assert.match(await page.locator('#verdict .pill').innerText(), /ok|review/, name);
+      assert.equal(await page.locator('#trouble').innerText(), '', name);
+      return request(page);
+    };
+    const round = await request(page);
+    for (const [name, kind] of [['Rectangular tube · corner radius', 'rectangular_tube'], ['Flat oval tube', 'flat_oval_tube'], ['Rectangular tube · size', 'rectangular_tube']]) {
+      const {target, ends, cutouts} = await shape(name);
+      assert.equal(target.kind, kind);
+      assert.equal(cutouts, undefined, 'cut-outs are in round tubes');
+      assert.deepEqual(ends, round.ends);
+      assert.equal(await page.locator('[data-adds="/holes"], [data-adds="/cutouts"], [data-holds="/cutouts"]').count(), 0);
+      await page.locator('#tab-proof').click();
+      assert.equal(await page.locator('#table-faces tbody tr').count(), 4);
+    }
+    await page.locator('[data-onward=files]').click();
+    await page.locator('input[name=purpose][value=model]').check();
+    assert.deepEqual(await page.locator('#panel [data-media]').evaluateAll((nodes) => [...new Set(nodes.map((node) => node.dataset.media))]), ['image/vnd.dxf', 'application/x-dstv']);
+    const {target} = await shape('Round · outer diameter, wall');
+    assert.equal(target.kind, 'round');
+    await page.locator('[data-adds="/cutouts"]').waitFor();
+    await opened(page, 'mixed.json', JSON.stringify({...round, target: {size: 'SHS 60x60x4 EN 10219', length_mm: 1200}}));
+    await page.locator('#form .complaint').first().waitFor();
+    await then(page, () => page.locator('[data-removes="/cutouts"]').click());
+    for (const field of ['accept', 'datum', 'seam_deg']) {
+      const remover = page.locator(`[data-removes="/${field}"]`);
+      if (await remover.count()) await then(page, () => remover.click());
+    }
+    assert.match(await page.locator('#verdict .pill').innerText(), /ok|review/);
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  },
+
   'the request of a packet is opened': async ({browser, origin, service}) => {
     const body = await example('frames/truss-of-19');
     const {body: bytes} = await service.ask('/v1/frames?format=zip', {body: JSON.stringify(body)});
