@@ -93,8 +93,8 @@ function solidOf(request: Row, result: Row, sizes: Sizes): Solid {
     link: 'part',
     tubes: [],
     ribbons: [
-      {a: walls[0][0], b: walls[0][1], tone: 'target'},
-      {a: walls[1][0], b: walls[1][1], tone: 'inner'},
+      {a: walls[0][0], b: walls[0][1], tone: 'steel'},
+      {a: walls[1][0], b: walls[1][1], tone: 'bore'},
       ...edges.map(([outer, inner], i) => ({
         a: inner,
         b: outer,
