@@ -4,7 +4,7 @@ import {envelope} from './bevel.js';
 import {checkHole, type Hole, holeOf, numbersOf} from './holes.js';
 import {axisOfMember, byId, cutInFrame, endOf, partnerBy, stated} from './nodes.js';
 import type {Scope} from './report.js';
-import {axisOf, type Body, type Size, type Solid, sizeOf, solid} from './solids.js';
+import {axisOf, type Body, type Size, sizeOf, solid} from './solids.js';
 import {across, add, cross, directionIn, dot, type Frame, inFrame, lineDistance, mul, norm, onTube, RAD, skew, sub, unit, type V3} from './space.js';
 import {checkEnd, cutBy, type Knowledge} from './tables.js';
 
