@@ -165,7 +165,7 @@ function checkSides(scope: Scope, cut: Cut, made: Body, side: Side, R: number): 
     const i = phi.findIndex((deg) => Math.abs(deg - stated_.phi_deg) < 1e-9);
     scope.same('edge_points', stated_.z_mm, i < 0 ? NaN : z[i], 1e-10, 'mm', name);
     scope.same('edge_points', stated_.z_mm, value, 0.011, 'mm', name);
-    scope.same('edge_girth', stated_.girth_mm, R * stated_.phi_deg * RAD, 1e-10 * (1 + R), 'mm', name);
+    scope.same('edge_girth', stated_.girth_mm, R * stated_.phi_deg * RAD, 1e-12 * (1 + R), 'mm', name);
     scope.covers(...['phi_deg', 'girth_mm', 'z_mm'].map((member) => `${name}/${member}`));
   }
   const welded = cut.partners.length > 0 && cut.setIn?.size !== cut.partners.length; // the weld of a set-in end is that of the hole
