@@ -72,7 +72,7 @@ TEST(SectionPartRequests, EveryProblemIsAtItsField) {
                  "/ends/finish/smoothing/method", "unsupported_combination");
   // A machine's program needs a cross axis, which no endpoint plans yet.
   const auto schedule = example("pulse-schedules/two-ends-and-four-holes-of-a-part.json");
-  const auto answer = post("/v1/pulse-schedules", with(schedule, "cut/part", bevelled()));
+  const auto answer = post("/v1/pulse-schedules", with(schedule, "part", bevelled()));
   ASSERT_TRUE(answer.outcome.error);
 }
 

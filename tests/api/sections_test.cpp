@@ -134,9 +134,10 @@ TEST(Sections, EveryFieldIsChecked) {
 
 /// What cannot be cut yet is refused by name, and the hint names who can.
 TEST(Sections, OtherEndpointsNameWhoCutsThem) {
-  const auto part = example("parts/table-1-with-a-square-far-end.json");
+  const auto schedule = example("pulse-schedules/two-ends-and-four-holes-of-a-part.json");
   const auto answer =
-      post("/v1/parts", with(part, "target", with(rectangle(80, 80, 4), "corners", "en_10219")));
+      post("/v1/pulse-schedules",
+           with(schedule, "part/target", with(rectangle(80, 80, 4), "corners", "en_10219")));
   ASSERT_TRUE(answer.outcome.error);
   bool named = false;
   for (const auto& one : *at(answer.body, "errors").as<api::Json::Array>())

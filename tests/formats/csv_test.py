@@ -9,7 +9,7 @@ import re
 from service import FormatTest, cutout_name, examples, main
 
 # Arrays of the answers that are no columns of a table: coefficients, names, vectors, the points of a program's ways.
-NO_COLUMNS = re.compile(r"^(fit|comparison\[\d+\])\.(chebyshev|scaled|seconds|seconds_rounded)$|cutter_ids$|^(axes|idle)$|^frame\."
+NO_COLUMNS = re.compile(r"^side_lengths\.|^(fit|comparison\[\d+\])\.(chebyshev|scaled|seconds|seconds_rounded)$|cutter_ids$|^(axes|idle)$|^frame\."
                         r"|^check_dimensions\[\d+\]\.changes_with$|\.box$|^segments\[\d+\]\.way\.")
 SCALARS = (int, float, str, bool, type(None))
 

@@ -15,9 +15,10 @@
 //       end->cut.groove = bevel::SquareCut{};
 //       end->cut.contact = bevel::Contact::automatic;
 //       end->cut.smoothing = bevel::NoSmoothing{};
+//       end->cut.sampling.uniform_points = 360;
 //     }
 //     const auto part = part::section_part(spec).value();
-//     const double top = part.faces[0].length;  // mm, along the middle of face 1: 860
+//     const double top = part.faces[0].length;  // mm, along the middle of face 1: 740
 
 #include <array>
 #include <cstddef>
