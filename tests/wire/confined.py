@@ -23,7 +23,7 @@ import heaviest
 from service import ROOT, Service, connect, exchange, head, post
 
 SHARE = 0.6  # of the container, see server/jobs/capacity.cpp
-KEPT_MIB = 48  # resident once all is over: the program, its threads' heaps
+KEPT_MIB = 72  # resident once all is over: the program, the heaps of two slots and of the thread for short jobs, whose drawings may be large
 SLOW_READERS = 17
 AT_ONCE = 4
 HEAVIEST_MS = 2000
