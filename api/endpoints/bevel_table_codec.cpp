@@ -168,6 +168,8 @@ void encode_steps(const bevel::Table& out, Writer& w) {
   });
 }
 
+}  // namespace
+
 void encode_limits(const bevel::TableSpec& spec, Writer& o) {
   o.degrees("mutation_limit_deg", spec.mutation_limit.rad());
   const auto* envelope = std::get_if<bevel::EnvelopeSmoothing>(&spec.smoothing);
@@ -175,8 +177,6 @@ void encode_limits(const bevel::TableSpec& spec, Writer& o) {
   o.degrees("max_slope_deg_per_mm", envelope->limits.slope);
   o.degrees("max_curvature_deg_per_mm2", envelope->limits.curvature);
 }
-
-}  // namespace
 
 void check_combination(const bevel::TableSpec& s, Reader& in) {
   const bool outer = s.root_surface == RootSurface::outer;

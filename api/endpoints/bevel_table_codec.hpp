@@ -74,6 +74,8 @@ void decode_cut(Reader& in, bool whole, Preset preset, bevel::TableSpec& out);
 void check_combination(const bevel::TableSpec& s, Reader& in);
 void decode_torch_and_kerf(Reader& in, Preset preset, bevel::TableSpec& out);
 
+/// Writes the limits that the table was made with.
+void encode_limits(const bevel::TableSpec& spec, Writer& o);
 /// Encodes a table's events, mutations and windows, and the intervals in which the torch range
 /// binds.
 void encode_bevel_lists(const bevel::Table& table, Writer& w);

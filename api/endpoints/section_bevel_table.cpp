@@ -27,14 +27,6 @@ void encode_gap(std::string_view name, const bevel::SectionTable& t, const bevel
   });
 }
 
-void encode_limits(const bevel::TableSpec& spec, Writer& o) {
-  o.degrees("mutation_limit_deg", spec.mutation_limit.rad());
-  const auto* envelope = std::get_if<bevel::EnvelopeSmoothing>(&spec.smoothing);
-  if (envelope == nullptr) return;
-  o.degrees("max_slope_deg_per_mm", envelope->limits.slope);
-  o.degrees("max_curvature_deg_per_mm2", envelope->limits.curvature);
-}
-
 /// Every column that a section's table may have.
 std::vector<std::string> all_names() {
   bevel::TableSpec all;

@@ -10,6 +10,7 @@
 #include "core/bevel/table/table.hpp"
 #include "core/joint/joint.hpp"
 #include "core/part/edge.hpp"
+#include "core/part/part.hpp"
 
 /// The two edges of a cut end as parts of a part, of a round tube's table or of a section's.
 namespace tubecut::part {
@@ -60,6 +61,29 @@ template <class Table>
     else
       out += (i + 1 < t.length.size() ? t.length[i + 1] : t.length_total) - t.length[i];
   return whole ? t.length_total : out;
+}
+
+/// Returns the lengths of a part along z, and of its welds.
+template <class Part, class Spec>
+[[nodiscard]] Lengths lengths_along(const Part& p, const Spec& spec, double work_point) {
+  const auto &s = p.start.table, &f = p.finish.table;
+  return {.work_point = work_point,
+          .longest = highest(f) - lowest(s),
+          .shortest = lowest(f) - highest(s),
+          .blank = highest_kerf(f) - lowest_kerf(s) + spec.clamping + spec.facing,
+          .weld = p.start.weld_length + p.finish.weld_length};
+}
+
+/// The part as its check dimensions see it: fills in edges and roots of both ends. `edge(table, z)`
+/// makes an edge of a column.
+template <class Shape, class Part, class MakeEdge>
+void fill_edges(const Part& p, const MakeEdge& edge, Shape& out) {
+  out.start_outer = edge(p.start.table, p.start.table.z_outer);
+  out.start_inner = edge(p.start.table, p.start.table.z_inner);
+  out.finish_outer = edge(p.finish.table, p.finish.table.z_outer);
+  out.finish_inner = edge(p.finish.table, p.finish.table.z_inner);
+  out.start_root_outer = p.start.spec.root_surface == bevel::RootSurface::outer;
+  out.finish_root_outer = p.finish.spec.root_surface == bevel::RootSurface::outer;
 }
 
 /// One wall of a part: where the start's cut ends it, and the finish's.

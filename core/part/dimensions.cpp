@@ -9,13 +9,11 @@
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
 #include "core/joint/joint.hpp"
-#include "core/part/edge_mistakes.hpp"
-#include "core/part/gauge.hpp"
+#include "core/part/end_gauges.hpp"
 
 namespace tubecut::part {
 namespace {
 
-constexpr double kSquare = 0.01;  // mm: a flatter end has no long point
 constexpr std::size_t kMost = 12, kLeast = 8;
 constexpr double kDiameterOff = 3.0;  // mm
 constexpr double kClockingOff = 5.0 * kRadPerDeg;
@@ -23,19 +21,6 @@ constexpr double kClockingOff = 5.0 * kRadPerDeg;
 double girth(const Shape& s) { return kTwoPi * s.outer_radius; }
 
 using RoundGauge = Gauge<Shape>;
-
-const Edge& outer(const Shape& s, bool finish) { return finish ? s.finish_outer : s.start_outer; }
-const Edge& inner(const Shape& s, bool finish) { return finish ? s.finish_inner : s.start_inner; }
-
-/// Returns the node of the outer edge that is furthest from the other end (`longest`), or nearest
-/// to it.
-std::size_t point(const Shape& s, bool finish, bool longest) {
-  return outer(s, finish).extreme(finish == longest);
-}
-
-double length_at(const Shape& s, double phi) {
-  return s.finish_outer.at(phi).low - s.start_outer.at(phi).high;
-}
 
 double chord(double radius, double phi_a, double z_a, double phi_b, double z_b) {
   return elementary::hypot(2.0 * radius * elementary::sin(0.5 * (phi_b - phi_a)), z_b - z_a);
@@ -45,28 +30,6 @@ double crown_chord(const Shape& s, bool finish) {
   const auto& e = outer(s, finish);
   const auto a = point(s, finish, true), b = point(s, finish, false);
   return chord(s.outer_radius, e.phi[a], e.z[a], e.phi[b], e.z[b]);
-}
-
-/// Returns the distance by which the inner edge extends beyond the outer one at phi.
-double overhang(const Shape& s, bool finish, double phi) {
-  const double ahead = outer(s, finish).at(phi).low - inner(s, finish).at(phi).low;
-  return finish ? -ahead : ahead;
-}
-
-bool square(const Shape& s, bool finish) {
-  const auto& e = outer(s, finish);
-  return e.highest() - e.lowest() < kSquare;
-}
-
-double widest_overhang(const Shape& s, bool finish) {
-  const auto& e = outer(s, finish);
-  double best = 0.0, at = 0.0;
-  for (const double phi : e.phi)
-    if (const double here = std::abs(overhang(s, finish, phi)); here > best) {
-      best = here;
-      at = phi;
-    }
-  return at;
 }
 
 std::string called(bool finish) { return std::string(joint::end_name(finish)); }
@@ -95,31 +58,11 @@ void add_lengths(std::vector<RoundGauge>& out) {
   }
 }
 
-void add_end(const Shape& shape, bool finish, std::vector<RoundGauge>& out) {
-  const auto end = called(finish);
-  if (!square(shape, finish)) {
-    out.push_back(gauge<Shape>(
-        end + "_long_girth", Tool::wrap,
-        "datum line to the " + end + "'s long point, round the outside, the way phi grows",
-        [finish](const Shape& s) {
-          return s.outer_radius * outer(s, finish).phi[point(s, finish, true)];
-        },
-        true));
-    out.push_back(
-        gauge<Shape>(end + "_crown_chord", Tool::rule,
-                     "long point of the " + end + "'s outer edge straight to its short point",
-                     [finish](const Shape& s) { return crown_chord(s, finish); }));
-  }
-  const double at = widest_overhang(shape, finish);
-  if (std::abs(overhang(shape, finish, at)) < kSquare) return;
-  out.push_back(
-      gauge<Shape>(end + "_overhang", Tool::rule,
-                   "outer edge of the " + end +
-                       ", along the tube, to its inner edge: above zero where the inner edge "
-                       "reaches further, below where it ends before, " +
-                       on_girth(shape, at),
-                   [finish, at](const Shape& s) { return overhang(s, finish, at); }));
-}
+constexpr Round<Shape> kRound{
+    .girth_at = [](const Shape& s, double phi) { return s.outer_radius * phi; },
+    .crown_chord = crown_chord,
+    .on_girth = on_girth,
+    .way = "the way phi grows"};
 
 /// Adds further dimensions while they fit: the tip, and for a single end its long and short points.
 void add_more(const Shape& shape, std::vector<RoundGauge>& out) {
@@ -149,44 +92,33 @@ std::vector<RoundGauge> gauges(const Shape& shape) {
   std::vector<RoundGauge> out;
   out.push_back(gauge<Shape>("girth", Tool::wrap, "round the outside", girth));
   add_lengths(out);
-  for (const bool finish : {false, true}) add_end(shape, finish, out);
+  for (const bool finish : {false, true}) add_end(shape, finish, kRound, out);
   out.push_back(gauge<Shape>("wall", Tool::caliper, "across the wall, square to it",
                              [](const Shape& s) { return s.wall; }));
   add_more(shape, out);
   return out;
 }
 
-EndEdges edges(Shape& s, bool finish) {
-  return finish ? EndEdges{&s.finish_outer, &s.finish_inner}
-                : EndEdges{&s.start_outer, &s.start_inner};
-}
-
 /// Returns the part with one mistake; for clocking and mirror, one shape for either end.
 std::vector<Shape> with(Mistake mistake, const Shape& shape) {
   std::vector<Shape> out{shape};
   auto& s = out.front();
-  const std::array ends{edges(s, false), edges(s, true)};
   switch (mistake) {
     case Mistake::diameter:
       s.outer_radius += 0.5 * kDiameterOff;
       break;
     case Mistake::wall:
-      for (const auto& end : ends) thicken((s.wall + kWallOff) / s.wall, end);
-      s.wall += kWallOff;
+      thicken_wall(s, s.wall);
       break;
     case Mistake::clocking:
+      return with_end_moved(shape, false, kClockingOff);
     case Mistake::mirror:
-      out.push_back(shape);
-      for (const bool finish : {false, true})
-        move_end(edges(out[finish ? 1 : 0], finish), mistake == Mistake::mirror,
-                 mistake == Mistake::clocking ? kClockingOff : 0.0);
-      break;
+      return with_end_moved(shape, true, 0.0);
     case Mistake::b_sign:
-      swing_wrong(ends[0], s.start_root_outer);
-      swing_wrong(ends[1], s.finish_root_outer);
+      swing_both_wrong(s);
       break;
     case Mistake::pivot_length:
-      for (const auto& end : ends) shift_by_slope(kPivotOff / s.wall, end);
+      lengthen_pivot(s, s.wall);
       break;
     case Mistake::height:
     case Mistake::width:

@@ -60,15 +60,8 @@ std::vector<WallEnds> walls_of(const Part& p) {
 }
 
 Lengths lengths(const PartSpec& spec, const Part& p, const std::stop_token& stop) {
-  Lengths out;
-  const auto& s = p.start.table;
-  const auto& f = p.finish.table;
-  out.work_point = *spec.target.length;
-  out.longest = highest(f) - lowest(s);
-  out.shortest = lowest(f) - highest(s);
-  out.blank = highest_kerf(f) - lowest_kerf(s) + spec.clamping + spec.facing;
-  out.weld = p.start.weld_length + p.finish.weld_length;
-  out.volume = end_volume(p.finish.spec, f) - end_volume(p.start.spec, s) -
+  auto out = lengths_along(p, spec, *spec.target.length);
+  out.volume = end_volume(p.finish.spec, p.finish.table) - end_volume(p.start.spec, p.start.table) -
                holes_volume(spec.target, p, stop);
   for (const auto& one : p.cutouts.instances) out.volume -= p.cutouts.mould_of(one).taken.volume;
   out.mass = out.volume * 1e-9 * spec.density;
@@ -204,15 +197,14 @@ EdgePoint edge_point(const Table& t, bool upwards) {
 }
 
 Shape shape_of(const PartSpec& spec, const Part& p) {
-  const auto outer = [](const End& e) { return e.spec.root_surface == bevel::RootSurface::outer; };
-  return {.outer_radius = spec.target.outer_radius,
-          .wall = spec.target.wall,
-          .start_outer = outer_edge(p.start.table),
-          .start_inner = inner_edge(p.start.table),
-          .finish_outer = outer_edge(p.finish.table),
-          .finish_inner = inner_edge(p.finish.table),
-          .start_root_outer = outer(p.start),
-          .finish_root_outer = outer(p.finish)};
+  Shape out{.outer_radius = spec.target.outer_radius, .wall = spec.target.wall};
+  fill_edges(
+      p,
+      [](const Table& t, const std::vector<double>& z) {
+        return Edge{t.phi, z};
+      },
+      out);
+  return out;
 }
 
 joint::MemberFrame part_frame(const PartSpec& spec, double dz) {

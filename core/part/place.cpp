@@ -50,22 +50,16 @@ bevel::Table seen_from_start(const bevel::Table& in, double length) {
   const auto order = reversed_rows(in.phi.size(), zeros);
   bevel::Table out;
   const double rho = in.developed_total / kTwoPi;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const auto i = order[k];
+  for (const auto i : order) {
     out.phi.push_back(other_way(in.phi[i]));
     out.developed.push_back(rho * out.phi.back());
-    out.length.push_back(k < zeros ? in.length[zeros - 1] - in.length[i]
-                                   : in.length_total + (zeros > 0 ? in.length[zeros - 1] : 0.0) -
-                                         in.length[i]);
   }
+  out.length = run_back(in.length, in.length_total, zeros, order);
   out.cutter = picked(in.cutter, order);
   out.zone = picked(in.zone, order);
   const auto mirror = [&](bevel::ColumnKind kind, const std::vector<double>& from,
                           std::vector<double>& to) {
-    using enum bevel::ColumnKind;
-    if (kind == height) to = mirrored(from, order, length);
-    if (kind == elevation || kind == rate) to = mirrored(from, order);
-    if (kind == plain) to = picked(from, order);
+    mirror_column(kind, from, order, length, to);
   };
   bevel::each_column(mirror, in, out);
   out.inner_events = in.inner_events;
@@ -86,16 +80,10 @@ bevel::Table seen_from_start(const bevel::Table& in, double length) {
 
 bevel::Table shifted(bevel::Table table, double dz) {
   const auto move = [dz](bevel::ColumnKind kind, std::vector<double>& column) {
-    if (kind != bevel::ColumnKind::height) return;
-    for (auto& z : column) z += dz;
+    shift_column(kind, column, dz);
   };
   bevel::each_column(move, table);
-  for (auto* events : {&table.inner_events, &table.outer_events})
-    for (auto& e : *events) {
-      e.z_from += dz;
-      e.z_to += dz;
-    }
-  table.penetration.z += dz;
+  shift_places(table, dz);
   return table;
 }
 

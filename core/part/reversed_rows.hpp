@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include "core/bevel/table/table_columns.hpp"
 
 /// Rows of a table in the order of the tube's other end.
 namespace tubecut::part {
@@ -34,8 +37,58 @@ template <class T>
   return out;
 }
 
-/// Mirrors the events of a cut: `other_way` gives a place counted from the other end. They are not
-/// sorted.
+/// A column seen from the tube's other end, `length` away. Stations are the caller's.
+inline void mirror_column(bevel::ColumnKind kind, const std::vector<double>& from,
+                          const std::vector<std::size_t>& order, double length,
+                          std::vector<double>& to) {
+  switch (kind) {
+    case bevel::ColumnKind::station:
+      return;
+    case bevel::ColumnKind::height:
+      to = mirrored(from, order, length);
+      return;
+    case bevel::ColumnKind::elevation:
+    case bevel::ColumnKind::rate:
+      to = mirrored(from, order);
+      return;
+    case bevel::ColumnKind::plain:
+      to = picked(from, order);
+      return;
+  }
+}
+
+/// Abscissae along the cut, which run the other way too, from the datum line; `zeros` rows lie on
+/// it.
+[[nodiscard]] inline std::vector<double> run_back(const std::vector<double>& column, double total,
+                                                  std::size_t zeros,
+                                                  const std::vector<std::size_t>& order) {
+  const double datum = zeros > 0 ? column[zeros - 1] : 0.0;
+  std::vector<double> out;
+  out.reserve(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    out.push_back((k < zeros ? datum : total + datum) - column[order[k]]);
+  return out;
+}
+
+/// Moves all that a table states of z, except its columns, by `dz`.
+template <class Table>
+void shift_places(Table& table, double dz) {
+  for (auto* events : {&table.inner_events, &table.outer_events})
+    for (auto& e : *events) {
+      e.z_from += dz;
+      e.z_to += dz;
+    }
+  table.penetration.z += dz;
+}
+
+/// Moves a column by `dz` if it is a height.
+inline void shift_column(bevel::ColumnKind kind, std::vector<double>& column, double dz) {
+  if (kind != bevel::ColumnKind::height) return;
+  for (auto& z : column) z += dz;
+}
+
+/// Mirrors the events of a cut: `other_way` gives a place counted from the other end. They are
+/// sorted by it.
 template <class Event, class OtherWay>
 void mirror_events(std::vector<Event>& events, double length, double Event::*place,
                    const OtherWay& other_way) {

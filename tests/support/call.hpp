@@ -77,6 +77,27 @@ inline api::Json without(api::Json json, std::string_view path) {
   return json;
 }
 
+/// The error of an answer at a pointer; nullptr if there is none.
+inline const api::Json* error_at(const Posted& answer, std::string_view pointer) {
+  const auto* errors = answer.body.find("errors");
+  if (errors == nullptr) return nullptr;
+  for (const auto& one : *errors->as<api::Json::Array>())
+    if (text(one, "pointer") == pointer) return &one;
+  return nullptr;
+}
+
+/// The request is refused at the pointer with the code, the value and the limit or a hint.
+inline void expect_refused(std::string_view path, const api::Json& request,
+                           std::string_view pointer, std::string_view code) {
+  const auto answer = post(path, request);
+  ASSERT_TRUE(answer.outcome.error) << pointer;
+  const auto* one = error_at(answer, pointer);
+  ASSERT_NE(one, nullptr) << pointer << " " << answer.outcome.body.substr(0, 800);
+  EXPECT_EQ(text(*one, "code"), code);
+  EXPECT_NE(one->find("got"), nullptr) << pointer;
+  EXPECT_TRUE(one->find("limit") != nullptr || one->find("hint") != nullptr) << pointer;
+}
+
 inline api::Json example(std::string_view file) {
   return *api::parse(read_project_file("examples/" + std::string(file)));
 }

@@ -38,19 +38,6 @@ DstvLengths lengths_of(const bevel::TableSpec& spec, const bevel::Table& t,
           .assumed = !spec.target.length};
 }
 
-DstvLengths lengths_of(const part::Part& p) {
-  const auto& s = p.start.table;
-  const auto& f = p.finish.table;
-  const double from =
-      std::min({0.0, std::ranges::min(s.torch_inner), std::ranges::min(s.torch_outer)});
-  const double to = std::max(
-      {p.lengths.longest, std::ranges::max(f.torch_inner), std::ranges::max(f.torch_outer)});
-  return {.over_long = p.lengths.longest,
-          .over_short = p.lengths.shortest,
-          .work_point = p.lengths.work_point,
-          .saw = to - from};
-}
-
 /// A round tube, its steel of this density.
 DstvProfile profile_of(const joint::Target& target, double density) {
   const double ro = target.outer_radius, ri = target.inner_radius();
@@ -189,7 +176,7 @@ std::string print_dstv(const bevel::TableSpec& spec, const bevel::Table& t,
 }
 
 std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  const auto lengths = lengths_of(part);
+  const auto lengths = lengths_of_part(part);
   const auto cuts = developed(spec, part).cuts;
   const auto start = one_bevel(part.start.table.b), finish = one_bevel(part.finish.table.b);
   bool constant = start && finish;

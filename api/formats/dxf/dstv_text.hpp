@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,21 @@ struct DstvLengths {
   double saw = 0.0;      // from the start of the torch line
   bool assumed = false;  // nobody gave the far end
 };
+
+/// Of a whole part: x = 0 at the start's long point.
+template <class Part>
+[[nodiscard]] DstvLengths lengths_of_part(const Part& p) {
+  const auto& s = p.start.table;
+  const auto& f = p.finish.table;
+  const double from =
+      std::min({0.0, std::ranges::min(s.torch_inner), std::ranges::min(s.torch_outer)});
+  const double to = std::max(
+      {p.lengths.longest, std::ranges::max(f.torch_inner), std::ranges::max(f.torch_outer)});
+  return {.over_long = p.lengths.longest,
+          .over_short = p.lengths.shortest,
+          .work_point = p.lengths.work_point,
+          .saw = to - from};
+}
 
 struct DstvProfile {
   std::string name, code;

@@ -96,19 +96,6 @@ std::string bevels(const part::SectionEnd& end, const char* name, const std::sto
   return out;
 }
 
-DstvLengths lengths_of(const part::SectionPart& p) {
-  const auto& s = p.start.table;
-  const auto& f = p.finish.table;
-  const double from =
-      std::min({0.0, std::ranges::min(s.torch_inner), std::ranges::min(s.torch_outer)});
-  const double to = std::max(
-      {p.lengths.longest, std::ranges::max(f.torch_inner), std::ranges::max(f.torch_outer)});
-  return {.over_long = p.lengths.longest,
-          .over_short = p.lengths.shortest,
-          .work_point = p.lengths.work_point,
-          .saw = to - from};
-}
-
 DstvProfile profile_of(const part::SectionPartSpec& spec) {
   const auto& s = spec.section;
   return {.name = (s.height == s.width ? "SHS" : "RHS") + fixed(s.height, 1) + "x" +
@@ -160,7 +147,7 @@ std::string print_dstv(const part::SectionPartSpec& spec, const part::SectionPar
                             fixed(mark.z_from, 3) +
                             (mark.z_to > mark.z_from ? " to " + fixed(mark.z_to, 3) : ""));
     }
-  const auto lengths = lengths_of(part);
+  const auto lengths = lengths_of_part(part);
   auto out = "ST\r\n" + dstv_comments(lengths, kFrame, constant, caption) + cut_angles(part) +
              marks + dstv_header(profile_of(spec), lengths, caption, spec.name);
   append(out, outlines, caption.stop);

@@ -9,27 +9,8 @@ namespace tubecut::bevel {
 /// a round tube's. Stations along the cut are not among them.
 template <class F, class... T>
 void each_section_column(const F& see, T&... t) {
-  using enum ColumnKind;
-  see(plain, t.wall...);
-  see(height, t.z_inner...);
-  see(height, t.z_outer...);
-  see(height, t.z_face...);
-  see(elevation, t.b_face...);
-  see(plain, t.dihedral...);
-  see(plain, t.groove...);
-  see(plain, t.gamma...);
-  see(elevation, t.flush...);
-  see(elevation, t.b_raw...);
-  see(elevation, t.b_required...);
-  see(elevation, t.b...);
-  see(plain, t.gap...);
-  see(plain, t.gaps.square.inner...);
-  see(plain, t.gaps.square.outer...);
-  see(plain, t.gaps.bevelled.inner...);
-  see(plain, t.gaps.bevelled.outer...);
-  see(plain, t.beam...);
-  see(height, t.torch_inner...);
-  see(height, t.torch_outer...);
+  see(ColumnKind::plain, t.wall...);
+  each_common_column(see, t...);
 }
 
 }  // namespace tubecut::bevel

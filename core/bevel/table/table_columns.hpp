@@ -13,25 +13,19 @@ enum class ColumnKind {
   plain,      // unchanged
 };
 
-/// Calls `see(kind, column...)` with every numeric column of a table, or of several tables in
-/// parallel. If you add a column to `Table`, add a line here.
+/// Calls `see(kind, column...)` with every numeric column that the tables of all tubes have, except
+/// stations along the cut.
 template <class F, class... T>
-void each_column(const F& see, T&... t) {
+void each_common_column(const F& see, T&... t) {
   using enum ColumnKind;
-  see(station, t.phi...);
-  see(station, t.developed...);
-  see(station, t.length...);
   see(height, t.z_inner...);
   see(height, t.z_outer...);
   see(height, t.z_face...);
   see(elevation, t.b_face...);
   see(plain, t.dihedral...);
   see(plain, t.groove...);
-  see(elevation, t.tau...);
   see(plain, t.gamma...);
   see(elevation, t.flush...);
-  see(rate, t.dz_branch...);
-  see(rate, t.dz_chord...);
   see(elevation, t.b_raw...);
   see(elevation, t.b_required...);
   see(elevation, t.b...);
@@ -43,6 +37,20 @@ void each_column(const F& see, T&... t) {
   see(plain, t.beam...);
   see(height, t.torch_inner...);
   see(height, t.torch_outer...);
+}
+
+/// Calls `see(kind, column...)` with every numeric column of a table, or of several tables in
+/// parallel. If you add a column to `Table`, add a line here.
+template <class F, class... T>
+void each_column(const F& see, T&... t) {
+  using enum ColumnKind;
+  see(station, t.phi...);
+  see(station, t.developed...);
+  see(station, t.length...);
+  see(elevation, t.tau...);
+  see(rate, t.dz_branch...);
+  see(rate, t.dz_chord...);
+  each_common_column(see, t...);
 }
 
 }  // namespace tubecut::bevel

@@ -92,30 +92,17 @@ std::vector<Step> sequence_of(const SectionPart& p) {
 
 Lengths lengths(const SectionPartSpec& spec, const SectionPart& p) {
   const section::Wall wall(spec.section);
-  const auto& s = p.start.table;
-  const auto& f = p.finish.table;
-  Lengths out;
-  out.work_point = spec.length;
-  out.longest = highest(f) - lowest(s);
-  out.shortest = lowest(f) - highest(s);
-  out.blank = highest_kerf(f) - lowest_kerf(s) + spec.clamping + spec.facing;
-  out.weld = p.start.weld_length + p.finish.weld_length;
-  out.volume = end_volume(wall, p.finish.spec, f) - end_volume(wall, p.start.spec, s);
+  auto out = lengths_along(p, spec, spec.length);
+  out.volume = end_volume(wall, p.finish.spec, p.finish.table) -
+               end_volume(wall, p.start.spec, p.start.table);
   out.mass = out.volume * 1e-9 * spec.density;
   return out;
 }
 
 SectionShape shape_of(const SectionPartSpec& spec, const SectionPart& p) {
-  const auto outer = [](const SectionEnd& e) {
-    return e.spec.root_surface == bevel::RootSurface::outer;
-  };
-  return {.section = spec.section,
-          .start_outer = outer_edge(p.start.table),
-          .start_inner = inner_edge(p.start.table),
-          .finish_outer = outer_edge(p.finish.table),
-          .finish_inner = inner_edge(p.finish.table),
-          .start_root_outer = outer(p.start),
-          .finish_root_outer = outer(p.finish)};
+  SectionShape out{.section = spec.section};
+  fill_edges(p, edge_over_girth, out);
+  return out;
 }
 
 /// Places both ends in the part's frame.

@@ -56,16 +56,6 @@ std::size_t rows_at_datum(const bevel::SectionTable& t) {
   return out;
 }
 
-/// Abscissae run the other way too, from the datum line.
-std::vector<double> run_back(const std::vector<double>& column, double total, std::size_t zeros,
-                             const std::vector<std::size_t>& order) {
-  std::vector<double> out;
-  for (std::size_t k = 0; k < order.size(); ++k)
-    out.push_back(k < zeros ? column[zeros - 1] - column[order[k]]
-                            : total + (zeros > 0 ? column[zeros - 1] : 0.0) - column[order[k]]);
-  return out;
-}
-
 }  // namespace
 
 bevel::SectionTable seen_from_start(const section::Wall& wall, const bevel::SectionTable& in,
@@ -82,10 +72,7 @@ bevel::SectionTable seen_from_start(const section::Wall& wall, const bevel::Sect
   out.corner = picked(in.corner, order);
   const auto mirror = [&](bevel::ColumnKind kind, const std::vector<double>& from,
                           std::vector<double>& to) {
-    using enum bevel::ColumnKind;
-    if (kind == height) to = mirrored(from, order, length);
-    if (kind == elevation || kind == rate) to = mirrored(from, order);
-    if (kind == plain) to = picked(from, order);
+    mirror_column(kind, from, order, length, to);
   };
   bevel::each_section_column(mirror, in, out);
   out.inner_events = in.inner_events;
@@ -106,16 +93,10 @@ bevel::SectionTable seen_from_start(const section::Wall& wall, const bevel::Sect
 
 bevel::SectionTable shifted(bevel::SectionTable table, double dz) {
   const auto move = [dz](bevel::ColumnKind kind, std::vector<double>& column) {
-    if (kind != bevel::ColumnKind::height) return;
-    for (auto& z : column) z += dz;
+    shift_column(kind, column, dz);
   };
   bevel::each_section_column(move, table);
-  for (auto* events : {&table.inner_events, &table.outer_events})
-    for (auto& e : *events) {
-      e.z_from += dz;
-      e.z_to += dz;
-    }
-  table.penetration.z += dz;
+  shift_places(table, dz);
   return table;
 }
 
