@@ -50,11 +50,13 @@ class SectionSurface {
   template <class F>
   void rows_near(std::size_t row, double reach, F f) const {
     const auto n = rows();
-    std::size_t left = n, i = row;
-    for (double passed = 0.0; left > 0 && passed <= reach; passed += width(i)) {
+    const auto before = [n](std::size_t i) { return i == 0 ? n - 1 : i - 1; };
+    f(row);
+    std::size_t left = n - 1, i = before(row);
+    for (double passed = 0.0; left > 0 && passed <= reach; i = before(i)) {
       f(i);
       --left;
-      i = i == 0 ? n - 1 : i - 1;
+      passed += width(i);
     }
     i = next(row);
     for (double passed = 0.0; left > 0 && passed <= reach; i = next(i)) {

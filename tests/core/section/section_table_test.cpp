@@ -241,5 +241,33 @@ TEST(SectionTable, MitreHasItsAngles) {
   EXPECT_NEAR(table->z_outer[row_at(*table, 0.0)], -50.0, 1e-9);
 }
 
+/// Of an untilted beam on the flats of a mitre: half its width times the secant of the cut, however
+/// long the row before is.
+TEST(SectionTable, DropOnAMitresFlatsIsThatOfAPlane) {
+  const section::Section section{60, 40, 3, 6, 3};
+  for (const double rise : {1.0, 0.4, -1.7})
+    for (const double kerf : {0.05, 0.2, 0.3, 0.45, 1.0})
+      for (const double tolerance : {0.0025, 0.01, 0.05}) {
+        auto spec = spec_of({joint::PlaneCutter{{0, 0, 0}, {-rise, 0, 1}}});
+        spec.groove = SquareCut{};
+        spec.contact = Contact::automatic;
+        spec.untilted = true;
+        spec.kerf = kerf;
+        spec.sampling = {.uniform_points = 64, .tolerance = joint::Tolerance{.value = tolerance}};
+        const auto table = section_table(section, spec);
+        ASSERT_TRUE(table);
+        for (const auto& check : verify(section, spec, *table))
+          EXPECT_LE(check.value, check.limit) << check.name << " " << kerf << " " << tolerance;
+        for (std::size_t i = 0; i < table->at.size(); ++i) {
+          const auto& at = table->at[i];
+          const bool sloped = at.face == 2 || at.face == 4;  // along x
+          if (at.on_corner || !sloped || std::abs(at.along) + 0.5 * kerf > 24.0) continue;
+          EXPECT_GE(table->z_outer[i] - table->torch_outer[i],
+                    0.5 * kerf * std::hypot(1.0, rise) - 1e-9)
+              << rise << " " << kerf << " " << tolerance << " " << at.s;
+        }
+      }
+}
+
 }  // namespace
 }  // namespace tubecut::bevel
