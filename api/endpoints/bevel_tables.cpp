@@ -45,7 +45,7 @@ struct BevelTables {
 
   static Spec decode(Reader& in) {
     Spec out;
-    if (!has_section_target(in)) return {decode_bevel_table_request(in)};
+    if (!has_section_target(in) && !has_section_end(in)) return {decode_bevel_table_request(in)};
     out.preset = decode_preset(in);
     check_accepts(in, out.preset);
     out.section = decode_section_cut(in, out);
@@ -59,7 +59,8 @@ struct BevelTables {
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
     if (spec.section) {
-      TRY(auto table, bevel::section_table(spec.section->section, spec, stop));
+      TRY(auto table,
+          on_node(spec.source, bevel::section_table(spec.section->section, spec, stop)));
       Out out;
       out.of_section = std::move(table);
       return out;
@@ -96,9 +97,10 @@ struct BevelTables {
   static void encode(const Spec& spec, const Out& out, Writer& w) {
     if (spec.section) {
       encode_section(*spec.section, w);
-      return encode_table(spec, *out.of_section, spec.columns, w);
+      encode_table(spec, *out.of_section, spec.columns, w);
+    } else {
+      encode_table(spec, out, spec.columns, w);
     }
-    encode_table(spec, out, spec.columns, w);
     if (spec.source.node) w.column("cutter_ids", cutter_ids(spec.source));
     if (out.laser) encode_end_report(out, *out.laser, w);
   }

@@ -11,6 +11,7 @@
 #include "api/wire/section_tables.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/intersection.hpp"
+#include "core/joint/node/end_curves.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -20,14 +21,14 @@ struct IntersectionRequest : joint::IntersectionSpec {
   std::optional<SectionTarget> section = {};  // of a target that is not round
 };
 
-/// Curves on a round target, or on a section.
-struct Curves : joint::Intersection {
-  std::optional<joint::SectionIntersection> of_section = {};
-};
+std::optional<section::Section> outline_of(const IntersectionRequest& spec) {
+  if (!spec.section) return std::nullopt;
+  return spec.section->section;
+}
 
 struct Intersections {
   using Spec = IntersectionRequest;
-  using Out = Curves;
+  using Out = joint::EndCurves;
   static constexpr std::string_view kId = "intersections";
   static constexpr std::string_view kPath = "/v1/intersections";
   static constexpr auto kMaxBody = static_cast<std::size_t>(limit::body_max_bytes);
@@ -45,7 +46,8 @@ struct Intersections {
       out.source.target = target_of(*out.section);
       out.source.partners = decode_cutters(in);
     } else {
-      out.source = decode_joint(in);
+      out.source = decode_joint(in, Targets::any);
+      if (out.source.node) out.section = out.source.node->section;
     }
     out.surfaces = in.choice("surfaces", joint::Surfaces::both);
     out.sampling = decode_sampling(in);
@@ -60,18 +62,10 @@ struct Intersections {
     return spec;
   }
   static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    if (!spec.section) {
-      TRY(auto round, on_node(spec.source, joint::intersect(spec, stop)));
-      return Out{std::move(round)};
-    }
-    TRY(auto curves, joint::intersect(spec.section->section, spec, stop));
-    Out out{{.profiles = {}, .warnings = curves.warnings}};
-    out.of_section = std::move(curves);
-    return out;
+    return on_node(spec.source, joint::curves(spec, outline_of(spec), stop));
   }
   static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
-    if (spec.section) return joint::verify(spec.section->section, spec, *out.of_section);
-    return joint::verify(spec, out, stop);
+    return joint::verify(spec, outline_of(spec), out, stop);
   }
   static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
     return on_node(spec.source, out.warnings);
@@ -85,11 +79,11 @@ struct Intersections {
               [](Writer& each, const joint::SectionProfile& p) {
                 each.object([&](Writer& o) { encode_profile(p, o); });
               });
-      return;
+    } else {
+      w.array("profiles", out.profiles, [&](Writer& each, const joint::Profile& p) {
+        each.object([&](Writer& o) { encode_profile(p, spec.sampling, o); });
+      });
     }
-    w.array("profiles", out.profiles, [&](Writer& each, const joint::Profile& p) {
-      each.object([&](Writer& o) { encode_profile(p, spec.sampling, o); });
-    });
     if (spec.source.node) w.column("cutter_ids", cutter_ids(spec.source));
   }
 

@@ -11,9 +11,6 @@
 namespace tubecut::api {
 namespace {
 
-/// Who cuts a target that is not round.
-constexpr std::string_view kSectionPaths = "/v1/intersections, /v1/bevel-tables and /v1/parts";
-
 constexpr double kBendRadiusMax = 50'000.0;  // mm; longer bends are rolled, not elbows
 
 constexpr Range kInclinationDeg{.min = 0.0, .max = 180.0, .open_min = true, .open_max = true};

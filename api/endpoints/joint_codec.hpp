@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "api/limits.hpp"
@@ -19,6 +20,10 @@ struct TubeSection {
 };
 /// `outer_diameter_mm` and `wall_mm` (if `with_wall`), or `size` by name.
 [[nodiscard]] TubeSection decode_tube_section(Reader& in, bool with_wall);
+
+/// Who cuts a target that is not round.
+inline constexpr std::string_view kSectionPaths =
+    "/v1/intersections, /v1/bevel-tables and /v1/parts";
 
 /// Fields that every request about a joint has in common.
 [[nodiscard]] joint::Target decode_target(Reader& in);

@@ -9,6 +9,7 @@
 #include "api/endpoints/frames/renaming.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
+#include "api/endpoints/part_ends.hpp"
 #include "api/endpoints/section_bevel_table.hpp"
 #include "api/limits.hpp"
 #include "api/wire/part_names.hpp"
@@ -25,8 +26,6 @@ constexpr Range kDensity{.min = 100.0, .max = 25'000.0};  // kg/m^3
 constexpr std::size_t kMostMarks = 1'000;
 constexpr CountRange kHoles{
     .min = 0, .max = 64, .instead = "holes without a branch are cutouts, up to 2000"};
-constexpr auto kMostCutters = static_cast<std::size_t>(limit::cutters_max);
-constexpr Range kGap{.min = 0.0, .max = 50.0};
 
 struct Blank {
   double clamping = 0.0, facing = 0.0;
@@ -80,21 +79,38 @@ bevel::HoleSpec hole_options(const bevel::TableSpec& once) {
   return out;
 }
 
+/// Refuses the fields of a round part. The datum line of another is the middle of face 1.
+void refuse_round_part(Reader& in, Preset preset) {
+  constexpr std::string_view kRoundOnly = "requires a round target";
+  in.choice("datum", kOnly<Datum::up>, Datum::up);
+  refuse_fields(in, {"holes", "cutouts", "seam_deg"}, kRoundOnly);
+  if (preset == Preset::tube_laser)
+    for (const auto name : {"min_tongue_mm", "min_web_mm", "min_hole_to_end_mm"})
+      refuse_limit(in, name, kRoundOnly);
+}
+
 void decode_member(Reader& in, PartRequest& out) {
   auto node = decode_named_node(in);
   auto& m = out.member.emplace();
   const auto id = in.text("member");
   m.member = known_member(in, node.ids, id, "member");
+  out.section = section_of(node, m.member);
   m.node = std::move(node.spec);
   in.note("up");
   if (in.has("up")) m.up = in.vector3("up", kComponent);
   const bool found = m.member < m.node.members.size();
   const bool up = m.up || (found && m.node.members[m.member].up);
-  const auto datum = decode_datum(in, up ? Datum::up : Datum::first_cutter, up || !found);
-  m.datum = datum.datum;
-  m.seam = datum.seam;
+  if (out.section) {
+    refuse_round_part(in, out.preset);
+    m.datum = Datum::up;
+  } else {
+    const auto datum = decode_datum(in, up ? Datum::up : Datum::first_cutter, up || !found);
+    m.datum = datum.datum;
+    m.seam = datum.seam;
+  }
   decode_cut(in, false, out.preset, m.cut);
   decode_once(in, out.preset, m.cut);
+  if (out.section) return refuse_round_only(in, m.cut);
   if (found) {
     const auto& own = m.node.members[m.member];
     m.cut.target = {.outer_radius = own.outer_radius, .wall = own.wall};
@@ -122,101 +138,6 @@ void decode_member(Reader& in, PartRequest& out) {
   });
 }
 
-/// A partner is set into at most its radius; a rectangular tube, a cone or an elbow not at all.
-double deepest_of(const joint::Partner& partner) {
-  struct Of {
-    double operator()(const joint::TubeCutter& t) const { return t.radius; }
-    double operator()(const joint::AxisTube& t) const { return t.radius; }
-    double operator()(const joint::PlaneCutter&) const { return 0.0; }
-    double operator()(const joint::RectangularTubeCutter&) const { return 0.0; }
-    double operator()(const joint::ConeCutter&) const { return 0.0; }
-    double operator()(const joint::ElbowCutter&) const { return 0.0; }
-  };
-  return joint::by_kind(partner, Of{});
-}
-
-joint::Joint decode_end_joint(Reader& in, const joint::Partner* partner) {
-  using joint::JointKind;
-  joint::Joint out;
-  const auto kind = in.tag("kind", kOnly<JointKind::set_on, JointKind::set_in, JointKind::mitre>);
-  out.kind = kind.value_or(JointKind::set_on);
-  out.gap = in.number("gap_mm", kGap, 0.0);
-  const bool set_in = out.kind == JointKind::set_in;
-  const bool goes =
-      partner == nullptr || out.kind == JointKind::set_on ||
-      (set_in ? deepest_of(*partner) > 0.0 : std::holds_alternative<joint::PlaneCutter>(*partner));
-  if (kind && !goes)
-    in.issue({.code = ErrorCode::unsupported_combination,
-              .pointer = "kind",
-              .hint = set_in ? "only a tube can be entered" : "a mitre's cutter is its plane"},
-             in.find("kind"));
-  if (!set_in) return out;
-  const double deepest = partner == nullptr || !goes ? kDiameter.max / 2.0 : deepest_of(*partner);
-  out.depth =
-      in.number("depth_mm", {.min = 0.0, .max = deepest, .open_min = true, .open_max = true});
-  return out;
-}
-
-/// Decodes the joints of an end's cutters, if given, by their index.
-void decode_end_joints(Reader& in, const std::string& end, bevel::TableSpec& out,
-                       std::vector<Warning>& warnings) {
-  in.note("joints");
-  if (!in.has("joints")) return;
-  const auto n = out.partners.size();
-  const bool known = in.understood("cutters") && n > 0;
-  out.stated.assign(n, std::nullopt);
-  in.array("joints", {.min = 0, .max = kMostCutters}, [&](Reader& j) {
-    const int last = static_cast<int>(known ? n : kMostCutters) - 1;
-    const auto index = static_cast<std::size_t>(j.integer("cutter", 0, last));
-    const bool there = known && j.understood("cutter");
-    const auto joint = decode_end_joint(j, there ? &out.partners[index] : nullptr);
-    const auto missing = j.optional_number("missing_mm", {.min = 0.0, .max = limit::offset_max_mm});
-    if (!there) return 0;
-    if (missing.value_or(0.0) > 0.0)
-      warnings.push_back({.code = WarningCode::ghost_contact,
-                          .member = "ends/" + end + "/cutters/" + std::to_string(index),
-                          .detail = "it is missing over " + brief(*missing) + " mm of this cut"});
-    if (out.stated[index])
-      j.issue({.code = ErrorCode::duplicate_id,
-               .pointer = "cutter",
-               .hint = "the joint of this cutter is already stated"},
-              j.find("cutter"));
-    out.stated[index] = joint;
-    return 0;
-  });
-}
-
-part::EndSpec decode_end(Reader& in, const std::string& end, const bevel::TableSpec& once,
-                         PartRequest& request) {
-  const auto which = in.exactly_one({"cutters", "square_at_mm"});
-  if (!which) {
-    in.silence();
-    return {};
-  }
-  part::EndSpec out{.cut = once};
-  if (const auto own = in.optional_number("kerf_mm", kKerf)) out.cut.kerf = *own;
-  if (which == 1) return part::square_end(out.cut, in.number("square_at_mm", kOffset));
-  out.cut.partners = decode_cutters(in);
-  decode_end_joints(in, end, out.cut, request.warnings);
-  decode_cut(in, false, request.preset, out.cut);
-  if (request.section) refuse_round_only(in, out.cut);
-  return out;
-}
-
-void decode_ends(Reader& in, const bevel::TableSpec& once, PartRequest& out) {
-  in.object("ends", [&](Reader& ends) {
-    const auto end = [&](Reader& e, const char* name, bool& own_kerf) {
-      own_kerf = e.has("kerf_mm");
-      return decode_end(e, name, once, out);
-    };
-    out.part.start =
-        ends.object("start", [&](Reader& e) { return end(e, "start", out.start_kerf); });
-    out.part.finish =
-        ends.object("finish", [&](Reader& e) { return end(e, "finish", out.finish_kerf); });
-    return 0;
-  });
-}
-
 /// Decodes the positions of other members on the part, in the start's frame.
 std::vector<part::Mark> decode_marks(Reader& in) {
   in.note("marks");
@@ -224,6 +145,18 @@ std::vector<part::Mark> decode_marks(Reader& in) {
   return in.array("marks", {.min = 0, .max = kMostMarks}, [](Reader& m) {
     part::Mark out{.kind = part::Mark::Kind::partner, .text = m.text("text")};
     out.phi = m.angle("phi_deg", kAnyAngleDeg).rad();
+    out.z_from = out.z_to = m.number("z_mm", kOffset);
+    return out;
+  });
+}
+
+/// The same on a tube that is not round.
+std::vector<part::SectionMark> decode_section_marks(Reader& in, double girth) {
+  in.note("marks");
+  if (!in.has("marks")) return {};
+  return in.array("marks", {.min = 0, .max = kMostMarks}, [&](Reader& m) {
+    part::SectionMark out{.kind = part::Mark::Kind::partner, .text = m.text("text")};
+    out.s = m.number("girth_mm", {.min = 0.0, .max = girth, .open_max = true});
     out.z_from = out.z_to = m.number("z_mm", kOffset);
     return out;
   });
@@ -245,16 +178,12 @@ void decode_part_target(Reader& in, std::string& name) {
 void decode_section_part(Reader& in, PartRequest& out) {
   out.section = decode_section_target(in);
   decode_part_target(in, out.part.name);
-  in.choice("datum", kOnly<Datum::up>, Datum::up);
-  constexpr std::string_view kRoundOnly = "requires a round target";
-  refuse_fields(in, {"holes", "cutouts", "marks", "seam_deg"}, kRoundOnly);
-  if (out.preset == Preset::tube_laser)
-    for (const auto name : {"min_tongue_mm", "min_web_mm", "min_hole_to_end_mm"})
-      refuse_limit(in, name, kRoundOnly);
+  refuse_round_part(in, out.preset);
   bevel::TableSpec once;
   once.target = target_of(*out.section);
   decode_once(in, out.preset, once);
   decode_ends(in, once, out);
+  out.of_section.partners = decode_section_marks(in, out.section->section.outer().girth());
 }
 
 void decode_direct(Reader& in, PartRequest& out) {
@@ -350,17 +279,27 @@ PartRequest decode_part_request(Reader& in, Tubes tubes) {
   return out;
 }
 
+namespace {
+
+part::SectionPartSpec section_part_of(const SectionTarget& target, const part::PartSpec& part) {
+  return {.section = target.section,
+          .start = part.start,
+          .finish = part.finish,
+          .start_frame = part.start_frame,
+          .name = part.name,
+          .clamping = part.clamping,
+          .facing = part.facing,
+          .density = part.density};
+}
+
+}  // namespace
+
 Result<PartRequest> resolve(PartRequest r, const std::stop_token& stop) {
-  if (r.section) {
-    auto& p = r.part;
-    r.of_section = {.section = r.section->section,
-                    .length = r.section->length.value_or(0.0),
-                    .start = p.start,
-                    .finish = p.finish,
-                    .name = p.name,
-                    .clamping = p.clamping,
-                    .facing = p.facing,
-                    .density = p.density};
+  if (r.section && !r.member) {
+    auto marks = std::move(r.of_section.partners);
+    r.of_section = section_part_of(*r.section, r.part);
+    r.of_section.length = r.section->length.value_or(0.0);
+    r.of_section.partners = std::move(marks);
     return r;
   }
   if (!r.member) {
@@ -381,6 +320,11 @@ Result<PartRequest> resolve(PartRequest r, const std::stop_token& stop) {
   r.start_ids = names(r.member->node, r.start_cutters);
   r.finish_ids = names(r.member->node, r.finish_cutters);
   r.warnings = std::move(found.warnings);
+  if (r.section) {
+    r.of_section = section_part_of(*r.section, r.part);
+    r.of_section.length = *r.part.target.length;
+    r.of_section.partners = std::move(found.on_faces);
+  }
   return r;
 }
 

@@ -19,7 +19,8 @@ struct PartRequest {
   part::PartSpec part;
   std::optional<part::MemberSpec> member = {};  // of a node
   std::optional<SectionTarget> section = {};    // of a tube that is not round, given directly
-  part::SectionPartSpec of_section = {};        // filled in by `resolve` in place of `part`
+  part::SectionPartSpec of_section = {};        // filled in by `resolve` in place of `part`, except
+                                                // the marks
   part::Datum datum = part::Datum::up;          // of a part given directly
   Angle seam = {};
   bool start_kerf = false, finish_kerf = false;  // an end has its own

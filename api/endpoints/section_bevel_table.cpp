@@ -122,10 +122,16 @@ void encode_section_laser(const bevel::SectionTable& t, Writer& w) {
 }
 
 SectionTarget decode_section_cut(Reader& in, BevelTableRequest& out) {
-  in.exactly_one({"target", "node"});
-  auto section = decode_section_target(in);
-  out.source.target = target_of(section);
-  out.source.partners = decode_cutters(in);
+  SectionTarget section;
+  if (has_section_target(in)) {
+    in.exactly_one({"target", "node"});
+    section = decode_section_target(in);
+    out.source.target = target_of(section);
+    out.source.partners = decode_cutters(in);
+  } else {
+    out.source = decode_joint(in, Targets::any);
+    if (out.source.node && out.source.node->section) section = *out.source.node->section;
+  }
   out.sampling = decode_sampling(in);
   decode_table_options(in, out.preset, out);
   refuse_round_only(in, out);

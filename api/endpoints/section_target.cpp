@@ -9,12 +9,11 @@
 namespace tubecut::api {
 namespace {
 
-enum class Kind { rectangular_tube, flat_oval_tube };
-constexpr std::array kKinds{Option<Kind>{"rectangular_tube", Kind::rectangular_tube},
-                            Option<Kind>{"flat_oval_tube", Kind::flat_oval_tube}};
+constexpr std::array kKinds{Option<SectionKind>{"rectangular_tube", SectionKind::rectangular_tube},
+                            Option<SectionKind>{"flat_oval_tube", SectionKind::flat_oval_tube}};
 
-const std::string* text_of(const Json* object, std::string_view name) {
-  const auto* field = object == nullptr ? nullptr : object->find(name);
+const std::string* text_of(const Json& object, std::string_view name) {
+  const auto* field = object.find(name);
   return field == nullptr ? nullptr : field->as<std::string>();
 }
 
@@ -97,16 +96,21 @@ void decode_size(Reader& t, SectionTarget& out) {
   }
 }
 
-SectionTarget decode_section(Reader& t) {
-  SectionTarget out;
-  Kind kind = Kind::rectangular_tube;
+}  // namespace
+
+SectionKind decode_section_kind(Reader& t) {
+  auto kind = SectionKind::rectangular_tube;
   if (t.has("kind"))
     kind = t.choice("kind", kKinds);
   else
     t.put("kind", Json{"rectangular_tube"});
   t.note("kind");
-  t.optional_text("id");
-  if (kind == Kind::flat_oval_tube) {
+  return kind;
+}
+
+SectionTarget decode_section(Reader& t, SectionKind kind) {
+  SectionTarget out;
+  if (kind == SectionKind::flat_oval_tube) {
     decode_lengths(t, out.section);
     out.section.corner = 0.5 * std::min(out.section.height, out.section.width);
     out.section.inner_corner = out.section.corner - out.section.wall;
@@ -118,23 +122,32 @@ SectionTarget decode_section(Reader& t) {
     decode_corners(t, out);
     check_corners(t, out);
   }
-  out.length =
-      t.optional_number("length_mm", {.min = 0.0, .max = limit::offset_max_mm, .open_min = true});
   return out;
 }
 
-}  // namespace
-
-bool has_section_target(const Reader& in) {
-  const auto* target = in.find("target");
-  if (const auto* kind = text_of(target, "kind"))
+bool is_section(const Json& tube) {
+  if (const auto* kind = text_of(tube, "kind"))
     return std::ranges::any_of(kKinds, [&](const auto& one) { return one.name == *kind; });
-  if (target == nullptr || target->find("kind") != nullptr) return false;
-  const auto* size = text_of(target, "size");
+  if (tube.find("kind") != nullptr) return false;
+  const auto* size = text_of(tube, "size");
   return size != nullptr && find_section_size(*size) != nullptr;
 }
 
-SectionTarget decode_section_target(Reader& in) { return in.object("target", decode_section); }
+bool has_section_target(const Reader& in) {
+  const auto* target = in.find("target");
+  return target != nullptr && is_section(*target);
+}
+
+SectionTarget decode_section_target(Reader& in) {
+  return in.object("target", [](Reader& t) {
+    const auto kind = decode_section_kind(t);
+    t.optional_text("id");
+    auto out = decode_section(t, kind);
+    out.length =
+        t.optional_number("length_mm", {.min = 0.0, .max = limit::offset_max_mm, .open_min = true});
+    return out;
+  });
+}
 
 joint::Target target_of(const SectionTarget& section) {
   return {.outer_radius = 0.5 * std::max(section.section.height, section.section.width),

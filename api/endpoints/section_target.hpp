@@ -19,7 +19,15 @@ struct SectionTarget {
   std::optional<double> length;
 };
 
-/// Returns true if the request's `target` names a section by its kind or its size.
+/// Returns true if a target, or a member of a node, is a section by its kind or its size.
+[[nodiscard]] bool is_section(const Json& tube);
+enum class SectionKind { rectangular_tube, flat_oval_tube };
+/// Reads `kind`, or its default.
+[[nodiscard]] SectionKind decode_section_kind(Reader& in);
+/// Reads its size, or its lengths and corners; the other fields are the caller's.
+[[nodiscard]] SectionTarget decode_section(Reader& in, SectionKind kind);
+
+/// Returns true if the request's `target` is a section.
 [[nodiscard]] bool has_section_target(const Reader& in);
 /// Reads `target`, a rectangular_tube or a flat_oval_tube.
 [[nodiscard]] SectionTarget decode_section_target(Reader& in);

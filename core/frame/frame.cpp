@@ -182,12 +182,32 @@ Result<void> settle(const FrameSpec& spec, Joined& joined) {
     }
   for (auto& one : joined.joints) {
     if (one.how.kind != How::Kind::through) continue;
-    const double a = spec.members[one.branch].outer_radius;
-    const double b = spec.members[one.chord].outer_radius;
+    const double a = spec.members[one.branch].half_size();
+    const double b = spec.members[one.chord].half_size();
     if (a == b)
       return contradicts(*one.stated, "kind",
                          "of two equally thick neither passes through the other");
     if (a > b) std::swap(one.branch, one.chord);
+  }
+  return {};
+}
+
+/// Refuses holes in a member that is not round, and holes for one.
+Result<void> check_sections(const FrameSpec& spec, const Joined& joined) {
+  for (const auto& one : joined.joints) {
+    if (one.other) continue;
+    const bool hole = one.how.hole || one.how.kind == How::Kind::through;
+    const auto refuse = [&](std::size_t member, const std::string& why) {
+      return fail({.code = ErrorCode::unsupported_target,
+                   .member = "members/" + std::to_string(member),
+                   .limit = std::string("round"),
+                   .unit = {},
+                   .hint = why + "; join the two set_on, with hole none"});
+    };
+    if (hole && spec.members[one.chord].section)
+      return refuse(one.chord, "the joint cuts a hole into this member");
+    if (hole && spec.members[one.branch].section)
+      return refuse(one.branch, "the joint cuts a hole for this member");
   }
   return {};
 }
@@ -285,6 +305,7 @@ Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop) {
     TRY(joined.nodes, joint::solve(joined.node, stop));
   }
   TRY(settle(spec, joined));
+  TRY(check_sections(spec, joined));
   Frame out;
   TRY(out.pieces, detail::pieces(spec, joined, stop));
   out.not_cut = not_cut(spec, joined);

@@ -89,9 +89,10 @@ struct Hole {
   std::size_t member = 0, joint = 0;
   joint::End end = joint::End::start;  // of the branch; unused if it passes through
 };
-/// The position of a branch, in the start's frame.
+/// The position of a branch, in the start's frame: around the tube by phi, or along the girth of
+/// one that is not round.
 struct Stand {
-  part::Mark mark;
+  double phi = 0.0, girth = 0.0, z = 0.0;  // rad; mm
   std::size_t member = 0;
 };
 
@@ -101,7 +102,7 @@ struct Stand {
 /// order of their own are sorted along the member, so congruent members get equal pieces,
 /// regardless of the direction in which their chords were drawn.
 struct Piece {
-  joint::Target target;
+  joint::Target target;      // not round: half its larger side
   joint::MemberFrame frame;  // of the start, in the world
   std::vector<Cutter> start, finish;
   std::vector<Hole> holes;
@@ -133,6 +134,10 @@ struct Frame {
 /// Accuracy  of joint::solve.
 /// Cost      twice that of joint::solve, with joint::overlaps; otherwise linear in members.
 [[nodiscard]] Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop = {});
+
+/// Returns the piece of a member that is not round turned about its axis by 90 deg, `quarters`
+/// times, into the same form as `solve`: equal members that lie turned get equal pieces.
+[[nodiscard]] Result<Piece> turned(Piece piece, const section::Section& section, int quarters);
 
 /// Verifies the requested parts by their own numbers: places them back into the world and compares
 /// them with the centre-lines, and compares the two sides of each joint. `asked`: of each member;

@@ -21,7 +21,7 @@ using Mates = std::vector<std::optional<std::size_t>>;
 
 bool alike(const joint::Member& a, const joint::Member& b) {
   return a.outer_radius == b.outer_radius && a.wall == b.wall && a.priority == b.priority &&
-         a.up == b.up;
+         a.up == b.up && a.section == b.section;
 }
 
 /// Finds for each end the end that it may be merged with.

@@ -8,6 +8,7 @@
 #include "core/base/try.hpp"
 #include "core/frame/frame_parts.hpp"
 #include "core/joint/node/in_line.hpp"
+#include "core/joint/node/shape.hpp"
 #include "core/part/member.hpp"
 
 namespace tubecut::frame::detail {
@@ -76,6 +77,19 @@ struct In {
   }
 };
 
+/// Lets the axis and the height of a rectangular partner rise with z, or with x if they are level,
+/// because the body is the same both ways.
+void orient(Partner& partner) {
+  auto* box = std::get_if<joint::RectangularTubeCutter>(&partner);
+  if (box == nullptr) return;
+  for (auto* v : {&box->direction, &box->up}) {
+    const double first = std::abs(v->z()) > kLevel   ? v->z()
+                         : std::abs(v->x()) > kLevel ? v->x()
+                                                     : v->y();
+    if (first < 0.0) *v = -*v;
+  }
+}
+
 /// A body that cuts an end, in the world.
 struct InWorld {
   Partner partner;
@@ -83,6 +97,7 @@ struct InWorld {
   std::size_t joint = 0;
   std::string at;  // for errors
   double missing = 0.0;
+  bool oriented = false;  // see `orient`
 };
 
 std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std::size_t index) {
@@ -95,6 +110,8 @@ std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std
                 .joint = joined.joint_of(end.member, cut.member),
                 .at = "members/" + std::to_string(cut.member),
                 .missing = cut.missing};
+    if (m.section) one.partner = joint::box_of(m);
+    one.oriented = m.section.has_value();
     if (cut.plane)
       one.partner =
           joint::PlaneCutter{end.frame.origin + end.frame.rows.transpose() * cut.plane->point,
@@ -106,7 +123,8 @@ std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std
                    .stated = joint::Joint{.kind = joint::JointKind::set_on,
                                           .gap = joined.joints[one.joint].how.gap},
                    .joint = one.joint,
-                   .at = "others/" + std::to_string(one.other)});
+                   .at = "others/" + std::to_string(one.other),
+                   .oriented = spec.members[end.member].section.has_value()});
   return out;
 }
 
@@ -114,6 +132,7 @@ Result<std::vector<Cutter>> placed(const std::vector<InWorld>& all, const Member
   std::vector<Cutter> out;
   for (const auto& one : all) {
     TRY(auto partner, under(one.at, joint::by_kind(one.partner, In{frame})));
+    if (one.oriented) orient(partner);
     out.push_back({std::move(partner), one.stated, one.joint, one.missing});
   }
   return out;
@@ -230,7 +249,7 @@ std::vector<double> written(const Piece& piece) {
   for (const auto* end : {&piece.start, &piece.finish})
     for (const auto& one : *end) joint::by_kind(one.partner, out);
   for (const auto& one : piece.holes) out(one.branch);
-  for (const auto& one : piece.stands) out(joint::TubeCutter{.clocking = Angle::rad(one.mark.phi)});
+  for (const auto& one : piece.stands) out(joint::TubeCutter{.clocking = Angle::rad(one.phi)});
   return out.take();
 }
 
@@ -239,15 +258,32 @@ auto order(double z, double turn) {
   return std::tuple(std::round(z * kWritten), std::round(turn * kWritten));
 }
 
-Result<void> add_branches(const FrameSpec& spec, const Joined& joined,
+void sort_stands(Piece& piece) {
+  std::ranges::stable_sort(piece.stands, {},
+                           [](const Stand& s) { return order(s.z, s.phi + s.girth); });
+}
+
+/// Returns the place where the axis of a branch leaves the outside of the member `chord`.
+Stand stand_of(const Branch& one, const joint::Member& branch, const joint::Member& chord,
+               const Piece& piece) {
+  if (!chord.section) {
+    const auto mark = part::mark_of(branch, one.end, piece.frame, piece.target.outer_radius);
+    return {.phi = mark.phi, .z = mark.z_from, .member = one.member};
+  }
+  const section::Curve outer(chord.section->outer());
+  const auto mark = part::mark_of(branch, one.end, piece.frame, outer);
+  return {.girth = mark.s, .z = mark.z_from, .member = one.member};
+}
+
+Result<void> add_branches(const FrameSpec& spec, const Joined& joined, const joint::Member& chord,
                           const std::vector<Branch>& on_it, Piece& out) {
   for (const auto& one : on_it) {
     const auto& branch = spec.members[one.member];
     const auto& how = joined.joints[one.joint].how;
-    const auto mark = part::mark_of(branch, one.end, out.frame, out.target.outer_radius);
-    const double reach = 2.0 * (out.target.outer_radius + branch.outer_radius);
-    const bool on_tube = mark.z_from > -reach && mark.z_from < *out.target.length + reach;
-    if (!one.passes && on_tube) out.stands.push_back({mark, one.member});
+    const auto stand = stand_of(one, branch, chord, out);
+    const double reach = 2.0 * (out.target.outer_radius + branch.half_size());
+    const bool on_tube = stand.z > -reach && stand.z < *out.target.length + reach;
+    if (!one.passes && on_tube) out.stands.push_back(stand);
     if (!how.hole) continue;
     const AxisLine axis{branch.at(one.end), branch.into(one.end)};
     TRY(const auto at, under("members/" + std::to_string(one.member),
@@ -256,8 +292,7 @@ Result<void> add_branches(const FrameSpec& spec, const Joined& joined,
   }
   std::ranges::stable_sort(
       out.holes, {}, [](const Hole& h) { return order(h.branch.height, h.branch.clocking.rad()); });
-  std::ranges::stable_sort(out.stands, {},
-                           [](const Stand& s) { return order(s.mark.z_from, s.mark.phi); });
+  sort_stands(out);
   return {};
 }
 
@@ -271,8 +306,8 @@ Result<Piece> seen_from(const FrameSpec& spec, const Joined& joined, std::size_t
                         const Around& around, const Vector3d& x) {
   const auto& m = spec.members[member];
   TRY(const auto own, under("members/" + std::to_string(member), frames(m, x)));
-  Piece out{.target = {.outer_radius = m.outer_radius,
-                       .wall = m.wall,
+  Piece out{.target = {.outer_radius = m.half_size(),
+                       .wall = m.thickness(),
                        .length = (m.finish - m.start).norm()},
             .frame = own.start,
             .start = {},
@@ -281,7 +316,7 @@ Result<Piece> seen_from(const FrameSpec& spec, const Joined& joined, std::size_t
             .stands = {}};
   TRY(out.start, placed(around.start, own.start));
   TRY(out.finish, placed(around.finish, own.finish));
-  TRY(add_branches(spec, joined, around.on_it, out));
+  TRY(add_branches(spec, joined, m, around.on_it, out));
   return out;
 }
 
@@ -294,6 +329,35 @@ Result<Piece> piece(const FrameSpec& spec, const Joined& joined, std::size_t mem
   if (!to.either) return out;
   TRY(auto across, seen_from(spec, joined, member, around, -to.x));
   return written(across) < written(out) ? across : out;
+}
+
+Result<Piece> turned_by(Piece piece, const section::Section& section, int quarters) {
+  static constexpr std::array kX{1.0, 0.0, -1.0, 0.0}, kY{0.0, 1.0, 0.0, -1.0};
+  const double x = kX[static_cast<std::size_t>(quarters)],
+               y = kY[static_cast<std::size_t>(quarters)];
+  const auto turn = [&](double side) {
+    MemberFrame out;
+    out.rows << x, side * y, 0.0, -side * y, x, 0.0, 0.0, 0.0, 1.0;
+    return out;
+  };
+  const auto start = turn(1.0), finish = turn(-1.0);  // its z runs the other way
+  const auto turn_cutters = [](std::vector<Cutter>& all, const MemberFrame& by) -> Result<void> {
+    for (auto& one : all) {
+      TRY(one.partner, joint::by_kind(one.partner, In{by}));
+      orient(one.partner);
+    }
+    return {};
+  };
+  TRY(turn_cutters(piece.start, start));
+  TRY(turn_cutters(piece.finish, finish));
+  piece.frame.rows = start.rows * piece.frame.rows;
+  const double girth = section.outer().girth();
+  for (auto& one : piece.stands) {
+    one.girth -= 0.25 * girth * quarters;
+    if (one.girth < 0.0) one.girth += girth;
+  }
+  sort_stands(piece);
+  return piece;
 }
 
 }  // namespace
@@ -326,3 +390,11 @@ Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined,
 }
 
 }  // namespace tubecut::frame::detail
+
+namespace tubecut::frame {
+
+Result<Piece> turned(Piece piece, const section::Section& section, int quarters) {
+  return detail::turned_by(std::move(piece), section, quarters);
+}
+
+}  // namespace tubecut::frame

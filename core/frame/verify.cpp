@@ -123,15 +123,31 @@ class Proof {
       if (one.other) continue;
       auto& mate = mates_[cutters[k].joint];
       const auto other = one.branch == member ? one.chord : one.branch;
-      mate.reach = m.outer_radius + spec_.members[other].outer_radius;
+      mate.reach = m.reach() + spec_.members[other].reach();
       if (const auto* tube = std::get_if<joint::TubeCutter>(&cut.partners[k]))
         worst_.axis.see(
             beside(axis_of(at, *tube), axis_of(spec_.members[other]), at.origin, mate.reach),
             size_of(*tube));
+      if (const auto* box = std::get_if<joint::RectangularTubeCutter>(&cut.partners[k]))
+        see_box(at, *box, spec_.members[other], mate.reach);
       if (const auto* plane = std::get_if<joint::PlaneCutter>(&cut.partners[k]))
         mate.faces.emplace_back(at, *plane);
       mate.of_ends.push_back(bevel::stated_joint(cut, k).value_or(joint::Joint{}));
     }
+  }
+
+  /// A partner that is not round: its axis, its sides, and where its height points.
+  void see_box(const Seen& at, const joint::RectangularTubeCutter& box, const joint::Member& other,
+               double reach) {
+    const Line line{at.origin + at.axes * box.point, at.axes * box.direction.normalized()};
+    worst_.axis.see(beside(line, axis_of(other), at.origin, reach), box.point.norm());
+    const Vector3d across = axis_of(other).unit.cross(*other.up).normalized();
+    worst_.axis.see(reach * std::abs(across.dot(at.axes * box.up.normalized())), box.point.norm());
+    if (!other.section) return;
+    worst_.axis.see(worst_of({std::abs(box.height - other.section->height),
+                              std::abs(box.width - other.section->width),
+                              std::abs(box.corner - other.section->corner)}),
+                    0.0);
   }
 
   void see_holes(std::size_t member) {

@@ -10,6 +10,10 @@
 
 namespace tubecut::joint {
 
+/// A wall that passes beside its partners by at most this is no overhang, because the coordinates
+/// of models are rounded, and a post is often as wide as its rail.
+inline constexpr double kSlightOverhang = 0.01;  // mm
+
 /// The closed curve along which a surface of the target leaves its cutters: z(phi) = max_i z_i.
 struct Contour {
   double radius = 0.0;  // rho of the surface, mm

@@ -114,6 +114,53 @@ Vector3d Finished::side(double phi) const {
          at.sin * first.frame.rows.row(1).transpose();
 }
 
+// A place of a section at one depth moves by at most the way along the outside, because the centre
+// of a corner lies further in than the wall.
+double Finished::bundle_reach(double rho, double half_rho, double half_phi) const {
+  if (section) return elementary::hypot(half_rho, turn_of(rho) * half_phi);
+  return std::sqrt(half_rho * half_rho + rho * (rho + half_rho) * half_phi * half_phi);
+}
+
+bool Finished::in_bore(const Line& line, double off, double keep) const {
+  constexpr double kHair = 1e-9;  // mm: rounding
+  return section && section->bore.distance(line.rho * section->across(line.q)) < keep - off - kHair;
+}
+
+double Finished::support(const Vector3d& direction) const {
+  if (section) return section->outside.support(section->across(direction));
+  return outer * (direction - direction.dot(axis) * axis).norm();
+}
+
+double Finished::below(const Vector3d& point) const {
+  const Vector3d from = point - start;
+  if (section) return -section->outside.distance(section->across(from));
+  return outer - (from - from.dot(axis) * axis).norm();
+}
+
+Line Finished::on_section(double phi, double rho) const {
+  const auto& s = *section;
+  const auto at = s.curve.at(turn_of(rho) * phi);
+  const Eigen::Vector2d p = at.point - (outer - rho) * at.normal;
+  const double from_axis = p.norm();
+  if (!(from_axis > 0.0)) return {0.0, s.x};
+  return {from_axis, (p.x() * s.x + p.y() * s.y) / from_axis};
+}
+
+namespace {
+
+/// Returns the thickness of a section's wall where it is thickest along its outside's normal.
+double thickest(const section::Section& section) {
+  const section::Wall wall(section);
+  const auto& outer = wall.outer();
+  double out = section.wall;
+  for (const auto& piece : outer.pieces())
+    for (const double share : {0.0, 0.5})
+      out = std::max(out, wall.across(outer.at(piece.from + share * piece.length)).wall);
+  return out;
+}
+
+}  // namespace
+
 Finished finished(const NodeSpec& spec, const Nodes& nodes, std::size_t member,
                   const Beside& beside) {
   const auto& m = spec.members[member];
@@ -121,13 +168,21 @@ Finished finished(const NodeSpec& spec, const Nodes& nodes, std::size_t member,
   const auto end = [&](std::size_t index) {
     return end_of(nodes.ends[index], index < beside.size() ? &beside[index] : nullptr);
   };
-  return {.start = m.start,
-          .axis = along.normalized(),
-          .length = along.norm(),
-          .inner = m.outer_radius - m.wall,
-          .outer = m.outer_radius,
-          .first = end(2 * member),
-          .last = end(2 * member + 1)};
+  Finished out{.start = m.start,
+               .axis = along.normalized(),
+               .length = along.norm(),
+               .inner = m.outer_radius - m.wall,
+               .outer = m.outer_radius,
+               .first = end(2 * member),
+               .last = end(2 * member + 1)};
+  if (const auto& section = m.section) {
+    out.outer = section->reach();
+    out.inner = out.outer - thickest(*section);
+    const Vector3d x = height_of(m);
+    out.section = FinishedSection{section->outer(), Outline::outside(*section),
+                                  Outline::bore(*section), x, out.axis.cross(x)};
+  }
+  return out;
 }
 
 }  // namespace tubecut::joint::detail

@@ -3,12 +3,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/node/overlap.hpp"
+#include "core/joint/node/shape.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/edge.hpp"
 #include "core/part/place.hpp"
@@ -40,6 +42,10 @@ Result<std::vector<joint::Partner>> partners(const joint::NodeSpec& node, const 
       continue;
     }
     const auto& m = node.members[cut.member];
+    if (cut.box) {
+      out.emplace_back(same ? *cut.box : joint::box_of(m, frame));
+      continue;
+    }
     TRY(const auto placed,
         same ? Result<joint::Placement>(cut.placement)
              : under("members/" + std::to_string(cut.member),
@@ -76,6 +82,30 @@ Mark mark_of(const joint::Member& branch, joint::End end, const MemberFrame& fra
   const Vector3d out = p + (std::sqrt(square) - along) / flat * d;
   return {Mark::Kind::partner, branch.name, math::whole_turn(elementary::atan2(out.y(), out.x())),
           out.z(), out.z()};
+}
+
+SectionMark mark_of(const joint::Member& branch, joint::End end, const MemberFrame& frame,
+                    const section::Curve& outer) {
+  const AxisLine line = frame.local(AxisLine{branch.at(end), branch.into(end)});
+  const Vector3d d = line.direction.normalized();
+  // The line leaves a rectangle by the face that it reaches first of those that it runs towards.
+  double way = std::numeric_limits<double>::infinity();
+  int out = 1;
+  for (int face = 1; face <= 4; ++face) {
+    const Eigen::Vector2d n = section::Curve::face_normal(face);
+    const double towards = n.dot(d.head<2>());
+    if (!(towards > 1e-12)) continue;
+    const double there =
+        std::max(0.0, (outer.face_distance(face) - n.dot(line.point.head<2>())) / towards);
+    if (!(there < way)) continue;
+    way = there;
+    out = face;
+  }
+  const Vector3d place = line.point + (std::isfinite(way) ? way : 0.0) * d;
+  const Eigen::Vector2d n = section::Curve::face_normal(out), t(-n.y(), n.x());
+  const double half = outer.half_flat(out);
+  const double along = std::clamp(t.dot(place.head<2>()), -half, half);
+  return {Mark::Kind::partner, branch.name, outer.on_face(out, along), place.z(), place.z()};
 }
 
 namespace {
@@ -115,6 +145,12 @@ Result<std::vector<HoleSpec>> holes(const MemberSpec& spec, const joint::NodeSpe
   for (std::size_t i = 0; i < spec.holes.size(); ++i) {
     const auto& [cut, member] = spec.holes[i];
     const auto& branch = node.members[member];
+    if (branch.section)
+      return fail({.code = ErrorCode::unsupported_target,
+                   .member = "members/" + std::to_string(member) + "/kind",
+                   .limit = std::string("round"),
+                   .unit = {},
+                   .hint = "holes are made for round branches"});
     const bool through = cut.kind == bevel::JointKind::through;
     const auto before = out.size();
     if (through && member != spec.member)
@@ -170,7 +206,7 @@ void warn_of_missing(const MemberSpec& spec, const std::vector<Standing>& standi
     const auto other = said.member == spec.member ? said.with : said.member;
     const bool enters =
         said.joint.kind == bevel::JointKind::through
-            ? members[other].outer_radius < members[spec.member].outer_radius
+            ? members[other].half_size() < members[spec.member].half_size()
             : said.joint.kind == bevel::JointKind::set_in &&
                   std::ranges::any_of(standing, [&](const auto& s) { return s.member == other; });
     const bool asked =
@@ -260,15 +296,20 @@ Result<FoundMember> find_member(const MemberSpec& spec, const std::stop_token& s
   FoundMember out;
   auto& part = out.part;
   part.target = {
-      .outer_radius = m.outer_radius, .wall = m.wall, .length = (m.finish - m.start).norm()};
+      .outer_radius = m.half_size(), .wall = m.thickness(), .length = (m.finish - m.start).norm()};
   part.zero = *zero;
   part.start_frame = both.first;
   part.name = m.name;
   part.start = end_spec(spec, part.target, *std::move(at_start), start);
   part.finish = end_spec(spec, part.target, *std::move(at_finish), finish);
   const auto standing = standing_on(*nodes, spec.member);
-  for (const auto& one : standing)
-    part.partners.push_back(mark_of(node.members[one.member], one.end, both.first, m.outer_radius));
+  for (const auto& one : standing) {
+    const auto& branch = node.members[one.member];
+    if (m.section)
+      out.on_faces.push_back(mark_of(branch, one.end, both.first, m.section->outer()));
+    else
+      part.partners.push_back(mark_of(branch, one.end, both.first, m.outer_radius));
+  }
   TRY(check_joints(spec, standing, out.warnings));
   warn_of_missing(spec, standing, out.warnings);
   TRY(auto cut, holes(spec, node, standing, part.target, both.first));

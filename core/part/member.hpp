@@ -6,6 +6,7 @@
 
 #include "core/joint/node/node.hpp"
 #include "core/part/part.hpp"
+#include "core/part/section/section_part.hpp"
 
 namespace tubecut::part {
 
@@ -32,6 +33,11 @@ enum class Datum {
 [[nodiscard]] Mark mark_of(const joint::Member& branch, joint::End end,
                            const joint::MemberFrame& frame, double radius);
 
+/// Returns the point where the axis of a branch leaves the outside of a member that is not round.
+/// `frame`: of the part's start.
+[[nodiscard]] SectionMark mark_of(const joint::Member& branch, joint::End end,
+                                  const joint::MemberFrame& frame, const section::Curve& outer);
+
 /// A hole for a member of the node: `cut` except chord and branch.
 struct BranchHole {
   bevel::HoleSpec cut;
@@ -52,6 +58,7 @@ struct MemberSpec {
 
 struct FoundMember {
   PartSpec part;
+  std::vector<SectionMark> on_faces = {};  // of a member that is not round: the branches on it
   std::vector<std::size_t> start_cutters, finish_cutters;  // member indices
   std::vector<Warning> warnings;                           // of the node about this member's ends
 };

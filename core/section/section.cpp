@@ -26,6 +26,10 @@ tl::unexpected<Error> bad_radius(std::string member, double got, double limit, s
 
 }  // namespace
 
+double Section::reach() const {
+  return elementary::hypot(0.5 * height - corner, 0.5 * width - corner) + corner;
+}
+
 CornerRadii corner_radii(Standard standard, double wall) {
   if (standard == Standard::en_10210) return {1.5 * wall, wall};
   if (standard == Standard::astm_a500) return {2.0 * wall, wall};

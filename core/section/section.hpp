@@ -22,6 +22,10 @@ struct Section {
   [[nodiscard]] Curve bore() const {
     return {height - 2.0 * wall, width - 2.0 * wall, inner_corner};
   }
+  /// Returns the largest distance of the outside from the axis.
+  [[nodiscard]] double reach() const;
+
+  friend bool operator==(const Section&, const Section&) = default;
 };
 
 enum class Standard { en_10210, en_10219, astm_a500 };

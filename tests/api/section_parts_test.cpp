@@ -46,7 +46,7 @@ TEST(SectionPartRequests, EveryProblemIsAtItsField) {
   expect_refused(kParts, with(rail(), "target/size", "RHS 61x40x3"), "/target/size",
                  "unknown_size");
   expect_refused(kParts, with(rail(), "datum", "seam"), "/datum", "bad_choice");
-  for (const char* field : {"holes", "cutouts", "marks"})
+  for (const char* field : {"holes", "cutouts"})
     expect_refused(kParts, with(rail(), field, parsed("[]")), std::string("/") + field,
                    "unsupported_combination");
   for (const char* limit : {"min_tongue_mm", "min_web_mm", "min_hole_to_end_mm"})
@@ -60,6 +60,23 @@ TEST(SectionPartRequests, EveryProblemIsAtItsField) {
   const auto schedule = example("pulse-schedules/two-ends-and-four-holes-of-a-part.json");
   const auto answer = post("/v1/pulse-schedules", with(schedule, "part", bevelled()));
   ASSERT_TRUE(answer.outcome.error);
+}
+
+/// The girth of 60 x 40 with corners of 6 is 189.70 mm.
+TEST(SectionPartRequests, MarksLieWhereTheyAreStated) {
+  const auto marked = [](double girth) {
+    auto mark = parsed(R"({"text": "latch", "girth_mm": 0, "z_mm": 400})");
+    mark = with(mark, "girth_mm", girth);
+    return with(rail(), "marks", api::Json{api::Json::Array{mark}});
+  };
+  const auto answer = post(kParts, marked(47.5));
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+  const auto& mark = at(answer.body, "result/marks").as<api::Json::Array>()->back();
+  EXPECT_EQ(text(mark, "text"), "latch");
+  EXPECT_NEAR(number(mark, "girth_mm"), 47.5, 1e-9);
+  const double start = numbers(answer.body, "result/frame/origin_mm")[2];
+  EXPECT_NEAR(number(mark, "z_from_mm"), 400.0 - start, 1e-9);
+  expect_refused(kParts, marked(189.7), "/marks/0/girth_mm", "out_of_range");
 }
 
 TEST(SectionPartRequests, LimitsAreHeldToBothEnds) {

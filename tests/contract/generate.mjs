@@ -245,11 +245,32 @@ const tables = fc.record({
     fc.record({root_surface: fc.constant('outer'), contact: fc.constantFrom('outer', 'none'), smoothing: fc.oneof(envelope, untreated)}))),
 });
 
+// A rectangular brace on a rectangular chord, by its node. The kerf is less than the corner radius.
+const rectangularEnd = fc.record({height: between(80, 200), width: between(80, 200), wall: between(3, 8), side: between(0.3, 0.7), lean: between(50, 130),
+  oval: fc.boolean()}).map(({height, width, wall, side, lean, oval}) => {
+  const small = side * Math.min(height, width);
+  const turn = lean * pi / 180;
+  const brace = oval ? {kind: 'flat_oval_tube'} : {kind: 'rectangular_tube', corners: 'en_10219'};
+  return {node: {
+    members: [
+      {id: 'C', start_mm: [-900, 0, 0], end_mm: [900, 0, 0], kind: 'rectangular_tube', height_mm: height, width_mm: width, wall_mm: wall,
+        corner_radius_mm: 2 * wall, up: [0, 0, 1]},
+      {id: 'B0', start_mm: [0, 0, 0], end_mm: [900 * Math.cos(turn), 0, 900 * Math.sin(turn)], ...brace, height_mm: small, width_mm: 0.8 * small,
+        wall_mm: Math.max(0.5, 0.05 * small), up: [0, 1, 0], priority: 1}],
+    connect: {within_mm: 5}, member: 'B0', end: 'start'}};
+});
+const rectangularWays = fc.record({root_surface: fc.constant('inner'), contact: fc.constantFrom('inner', 'auto', 'none'),
+  smoothing: fc.oneof(envelope, untreated), groove, kerf_mm: between(0.01, 0.9)});
+const rectangularLaser = fc.record({preset: fc.constant('tube_laser'), kerf_mm: between(0.01, 0.9)});
+const laserSectionAccept = fc.record({max_gap_mm: between(0, 5), max_reach_mm: between(0, 300), max_root_gap_mm: between(0, 2)}, {requiredKeys: []});
+
 const own = {
   intersections: joined(joint, sampling, maybe('surfaces', fc.constantFrom('inner', 'outer', 'both')), common),
   holes: joined(hole, fc.record({joint: holeJoint, groove, kerf_mm: kerf}), maybe('tilt', fc.constantFrom('axial', 'free', 'none')), sampling,
     maybe('torch', torch), maybe('accept', holeAccept), common),
   nodes: joined(connected, fc.oneof(fc.constant({}), fc.constant({include: ['profiles']}), tables), sampling, common),
   'bevel-tables': fc.oneof({weight: 4, arbitrary: joined(joint, ways, fc.record({groove, kerf_mm: kerf}), maybe('torch', torch), maybe('accept', accept), common)},
-    {weight: 1, arbitrary: joined(joint, untilted, sampling, maybe('torch', torch), maybe('accept', laserAccept), common)}),
+    {weight: 1, arbitrary: joined(joint, untilted, sampling, maybe('torch', torch), maybe('accept', laserAccept), common)},
+    {weight: 1, arbitrary: joined(rectangularEnd, rectangularWays, sampling, maybe('torch', torch), maybe('accept', accept), common)},
+    {weight: 1, arbitrary: joined(rectangularEnd, rectangularLaser, sampling, maybe('torch', torch), maybe('accept', laserSectionAccept), common)}),
 };

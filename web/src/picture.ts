@@ -179,9 +179,28 @@ export interface HoledTube {
   to: EndCurve;
   holes: {outer: {phi: number[]; z: number[]}; inner: {phi: number[]; z: number[]}; b: number[]; gaps?: Gaps}[];
 }
+/** A member that is not round: both ends of each wall, column by column, and the cuts from the outer wall to the bore. */
+export interface Shell {
+  reach: number; // from the axis
+  walls: {outer: [from: Vector[], to: Vector[]]; bore: [from: Vector[], to: Vector[]]};
+  cuts: [start: ShellCut, finish: ShellCut];
+}
+export interface ShellCut {
+  outer: Vector[];
+  inner: Vector[];
+}
+export type MemberPart = HoledTube | Shell;
+
+/** z of the points of both ends. */
+export const heightsOf = (part: MemberPart): [start: number[], finish: number[]] =>
+  'cuts' in part
+    ? (part.cuts.map(({outer, inner}) => [...outer, ...inner].map((p) => p[2])) as [number[], number[]])
+    : ([part.from, part.to].map(({zOuter, zInner}) => [...zOuter, ...zInner]) as [number[], number[]]);
+export const reachOf = (part: MemberPart): number => ('cuts' in part ? part.reach : part.outer);
+
 /** Members of a frame: parts, each in its own frame, and their positions. */
 export interface Assembly {
-  parts: HoledTube[];
+  parts: MemberPart[];
   members: {name: string; part: number; frame: Frame; tone: string}[];
   /** The members that each item lights up. */
   lights: number[][];

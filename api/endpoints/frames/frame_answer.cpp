@@ -20,13 +20,19 @@ struct Seam {
 };
 
 /// Length of the root curve along one partner.
-double along(const part::End& end, std::size_t cutter) {
-  const auto& t = end.own;
+template <class Table>
+double along(const Table& t, std::size_t cutter) {
   double out = 0.0;
   for (std::size_t i = 0; i < t.length.size(); ++i)
     if (t.cutter[i] == cutter)
       out += (i + 1 < t.length.size() ? t.length[i + 1] : t.length_total) - t.length[i];
   return out;
+}
+
+/// Length along one partner, and volume of the groove.
+template <class End>
+std::pair<double, double> seam_of(const End& end, std::size_t cutter) {
+  return {along(end.own, cutter), end.groove_volume};
 }
 
 template <class T>
@@ -59,11 +65,14 @@ void add_ends(const FrameJob& frame, const MadeParts& made, std::size_t member,
       seam.whole = seam.whole && part.made != nullptr;
       const auto kind = frame.frame.joints[cutters[k].joint].how.kind;
       if (!part.made || kind == frame::How::Kind::set_in) continue;
-      const auto& end = finish ? part.made->out.finish : part.made->out.start;
+      const auto& out = part.made->out;
+      const auto [length, volume] =
+          out.of_section
+              ? seam_of(finish ? out.of_section->finish : out.of_section->start, of_part[k])
+              : seam_of(finish ? out.finish : out.start, of_part[k]);
       const bool faces = kind == frame::How::Kind::mitre || kind == frame::How::Kind::butt;
-      const double length = along(end, of_part[k]);
       seam.weld = faces ? std::max(seam.weld, length) : seam.weld + length;
-      if (cutters.size() == 1) seam.groove = seam.groove.value_or(0.0) + end.groove_volume;
+      if (cutters.size() == 1) seam.groove = seam.groove.value_or(0.0) + volume;
     }
   }
 }
@@ -153,8 +162,12 @@ const std::string& name_of_part(const FrameJob& frame, std::size_t part) {
 
 FramePlace place_of(const FrameJob& frame, const Worked<Parts>& part, std::size_t member) {
   const auto start = frame.start_of(member);
-  const auto& own = part.out.frame;
+  const auto& own = part.out.of_section ? part.out.of_section->frame : part.out.frame;
   return {start.origin + start.rows.transpose() * own.origin, own.rows * start.rows};
+}
+
+const part::Lengths& lengths_of(const Parts::Out& part) {
+  return part.of_section ? part.of_section->lengths : part.lengths;
 }
 
 std::vector<std::string> members_of_part(const FrameJob& frame, std::size_t part) {
@@ -190,7 +203,7 @@ void write_totals(const FrameJob& frame, const MadeParts& made, Writer& w) {
   std::size_t members = 0;
   for (std::size_t i = 0; i < made.size(); ++i) {
     if (!made[i].made) continue;
-    const auto& lengths = made[i].made->out.lengths;
+    const auto& lengths = lengths_of(made[i].made->out);
     const auto count = frame.parts[i].members.size();
     members += count;
     blank += static_cast<double>(count) * lengths.blank;

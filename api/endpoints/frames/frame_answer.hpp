@@ -73,6 +73,8 @@ struct FramePlace {
 [[nodiscard]] FramePlace place_of(const FrameJob& frame, const Worked<Parts>& part,
                                   std::size_t member);
 
+[[nodiscard]] const part::Lengths& lengths_of(const Parts::Out& part);
+
 /// Writes the columns of the cut list of one part after its name, given to `row.field(name, value)`
 /// and `row.column(name, texts)`.
 template <class Row>
@@ -83,14 +85,19 @@ void cut_list_row(const FrameJob& frame, std::size_t i, const MadePart& part, Ro
   row.column("members", members);
   row.field("made_by", frame.spec.members[frame.parts[i].by].name);
   row.field("differs_at_most_mm", frame.parts[i].differs);
-  row.field("outer_diameter_mm", 2.0 * m.outer_radius);
+  if (m.section) {
+    row.field("height_mm", m.section->height);
+    row.field("width_mm", m.section->width);
+  } else {
+    row.field("outer_diameter_mm", 2.0 * m.outer_radius);
+  }
   row.field("wall_mm", frame.walls[frame.parts[i].members.front()]);
   if (!part.is_open()) row.field("verdict", part.made ? part.made->answer.verdict.status : "none");
   if (!part.made) return;
-  const auto& lengths = part.made->out.lengths;
+  const auto& lengths = lengths_of(part.made->out);
   row.field("long_mm", lengths.longest);
   row.field("blank_mm", lengths.blank);
-  row.field("girth_mm", kTwoPi * m.outer_radius);
+  row.field("girth_mm", m.section ? m.section->outer().girth() : kTwoPi * m.outer_radius);
   row.field("weld_mm", lengths.weld);
   row.field("mass_kg", lengths.mass);
   row.field("result_sha256", part.made->answer.result_sha256);

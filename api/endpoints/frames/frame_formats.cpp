@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "api/formats/csv.hpp"
+#include "api/formats/section_formats.hpp"
 #include "api/formats/step/step.hpp"
 #include "api/stop.hpp"
 #include "api/wire/columns.hpp"
@@ -36,6 +37,7 @@ struct CsvRow {
 StepFile::Shape add_solid(const FrameJob& frame, std::size_t i, const Worked<Parts>& part,
                           const Caption& caption, StepFile& file) {
   const auto& name = name_of_part(frame, i);
+  if (part.out.of_section) throw no_format_of_section("csv, and as zip the files of its parts");
   try {
     return file.solid(part_solid(part.spec.part, part.out, caption),
                       product_of(part.spec.part.target, name, caption));

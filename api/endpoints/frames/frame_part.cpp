@@ -4,8 +4,10 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
+#include "api/endpoints/frames/cutter_fields.hpp"
 #include "api/endpoints/frames/frame_shape.hpp"
 #include "api/wire/common_fields.hpp"
 #include "api/wire/frame_names.hpp"
@@ -15,66 +17,6 @@
 
 namespace tubecut::api {
 namespace {
-
-using Eigen::Vector3d;
-
-/// Rounds numbers to their significant digits, so that equal parts have equal texts: lengths to
-/// 1e-6 mm, angles to 1e-11 deg, directions to 1e-12, because an axis may be given by a far foot.
-Json tidy(double value, double to) {
-  const double out = std::round(value * to) / to;
-  return Json{out == 0.0 ? 0.0 : out};
-}
-Json mm(double value) { return tidy(value, 1e6); }
-Json deg(Angle angle) {
-  const auto out = tidy(angle.deg(), 1e11);
-  return out == Json{360.0} ? Json{0.0} : out;
-}
-Json vector(const Vector3d& v, double to) {
-  return Json{Json::Array{tidy(v.x(), to), tidy(v.y(), to), tidy(v.z(), to)}};
-}
-Json point(const Vector3d& v) { return vector(v, 1e6); }
-Json direction(const Vector3d& v) { return vector(v, 1e12); }
-Json axis(const Vector3d& at, const Vector3d& along) {
-  return Json{Json::Object{{"point_mm", point(at)}, {"direction", direction(along)}}};
-}
-
-/// A cutter's own members but `kind`: one case for every kind.
-struct Fields {
-  using All = Json::Object;
-  All operator()(const joint::TubeCutter& t) const {
-    return {{"outer_diameter_mm", mm(2.0 * t.radius)},
-            {"inclination_deg", deg(t.inclination)},
-            {"clocking_deg", deg(t.clocking)},
-            {"offset_mm", mm(t.offset)},
-            {"height_mm", mm(t.height)}};
-  }
-  All operator()(const joint::AxisTube& t) const {
-    return {{"outer_diameter_mm", mm(2.0 * t.radius)},
-            {"axis", axis(t.axis.point, t.axis.direction)}};
-  }
-  All operator()(const joint::PlaneCutter& p) const {
-    return {{"point_mm", point(p.point)}, {"normal", direction(p.normal)}};
-  }
-  All operator()(const joint::RectangularTubeCutter& t) const {
-    return {{"width_mm", Json{t.width}},
-            {"height_mm", Json{t.height}},
-            {"corner_radius_mm", Json{t.corner}},
-            {"axis", axis(t.point, t.direction)},
-            {"up", direction(t.up)}};
-  }
-  All operator()(const joint::ConeCutter& c) const {
-    return {{"outer_diameter_mm", mm(2.0 * c.radius)},
-            {"half_angle_deg", deg(c.half_angle)},
-            {"axis", axis(c.point, c.direction)}};
-  }
-  All operator()(const joint::ElbowCutter& e) const {
-    return {{"outer_diameter_mm", mm(2.0 * e.radius)},
-            {"bend_radius_mm", Json{e.bend_radius}},
-            {"bend_deg", deg(e.bend)},
-            {"axis", axis(e.point, e.direction)},
-            {"inwards", direction(e.inwards)}};
-  }
-};
 
 /// Names of the parts. Without ids, only the marks on a part are named.
 struct Names {
@@ -91,17 +33,20 @@ class PartWriter {
   }
 
   [[nodiscard]] Result<Json> part(std::size_t member, const Names& names) const {
-    const auto& piece = frame_.pieces[member];
-    Json::Object target{{"outer_diameter_mm", mm(2.0 * piece.target.outer_radius)},
-                        {"wall_mm", Json{request_.walls[member]}},
-                        {"length_mm", mm(*piece.target.length)}};
+    return part(member, frame_.pieces[member], names);
+  }
+  /// The same of a piece that is turned.
+  [[nodiscard]] Result<Json> part(std::size_t member, const frame::Piece& piece,
+                                  const Names& names) const {
+    auto target = shape(member);
+    target.emplace_back("length_mm", written::mm(*piece.target.length));
     if (names.ids) target.emplace(target.begin(), "id", Json{names.of_members[member]});
-    TRY(auto start, end(member, joint::End::start, names));
-    TRY(auto finish, end(member, joint::End::finish, names));
+    TRY(auto start, end(member, piece, joint::End::start, names));
+    TRY(auto finish, end(member, piece, joint::End::finish, names));
     Json::Object out{
         {"target", Json{std::move(target)}},
         {"ends", Json{Json::Object{{"start", std::move(start)}, {"finish", std::move(finish)}}}}};
-    if (!piece.stands.empty()) out.emplace_back("marks", marks(piece, names));
+    if (!piece.stands.empty()) out.emplace_back("marks", marks(member, piece, names));
     if (!piece.holes.empty()) {
       TRY(auto all, holes(piece, names));
       out.emplace_back("holes", std::move(all));
@@ -111,6 +56,17 @@ class PartWriter {
   }
 
  private:
+  [[nodiscard]] bool is_section(std::size_t member) const {
+    return request_.spec.members[member].section.has_value();
+  }
+
+  /// Returns diameter and wall, or the section as it is given.
+  [[nodiscard]] Json::Object shape(std::size_t member) const {
+    if (is_section(member)) return request_.sections[member];
+    return {{"outer_diameter_mm", written::mm(2.0 * frame_.pieces[member].target.outer_radius)},
+            {"wall_mm", Json{request_.walls[member]}}};
+  }
+
   [[nodiscard]] const OwnCut* said(std::size_t joint) const {
     const auto& stated = frame_.joints[joint].stated;
     return stated ? &request_.cuts[*stated] : nullptr;
@@ -183,8 +139,9 @@ class PartWriter {
     return Json{std::move(out)};
   }
 
-  [[nodiscard]] Result<Json> end(std::size_t member, joint::End which, const Names& names) const {
-    const auto& all = cutters(member, which);
+  [[nodiscard]] Result<Json> end(std::size_t member, const frame::Piece& piece, joint::End which,
+                                 const Names& names) const {
+    const auto& all = which == joint::End::start ? piece.start : piece.finish;
     if (all.empty()) return square_end(member, which);
     Json::Array cutters, joints;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -194,7 +151,9 @@ class PartWriter {
       if (names.ids)
         if (const auto name = cutter_name(all[i], names); !name.empty())
           cutter.emplace_back("id", Json{name});
-      std::ranges::move(joint::by_kind(all[i].partner, Fields{}), std::back_inserter(cutter));
+      std::ranges::move(
+          joint::by_kind(all[i].partner, written::Fields{is_section(member) ? 100.0 : 1.0}),
+          std::back_inserter(cutter));
       cutters.emplace_back(std::move(cutter));
       if (all[i].stated) joints.push_back(joint(i, *all[i].stated, all[i].missing));
     }
@@ -218,16 +177,29 @@ class PartWriter {
                      {"gap_mm", Json{joint.gap}}};
     if (joint.kind == joint::JointKind::set_in && joint.depth)
       out.emplace_back("depth_mm", Json{*joint.depth});
-    if (missing > 0.0) out.emplace_back("missing_mm", tidy(missing, 1e3));
+    if (missing > 0.0) out.emplace_back("missing_mm", written::tidy(missing, 1e3));
     return Json{std::move(out)};
   }
 
-  static Json marks(const frame::Piece& piece, const Names& names) {
+  /// Returns a place along the girth; the datum, if the rounded one has come round to it.
+  [[nodiscard]] Json girth(std::size_t member, double s) const {
+    auto out = written::mm(s);
+    const double all = request_.spec.members[member].section->outer().girth();
+    return *out.as<double>() < all ? out : written::mm(0.0);
+  }
+
+  [[nodiscard]] Json marks(std::size_t member, const frame::Piece& piece,
+                           const Names& names) const {
     Json::Array out;
-    for (const auto& [mark, member] : piece.stands)
-      out.emplace_back(Json::Object{{"text", Json{names.of_members[member]}},
-                                    {"phi_deg", deg(Angle::rad(mark.phi))},
-                                    {"z_mm", mm(mark.z_from)}});
+    for (const auto& stand : piece.stands) {
+      Json::Object one{{"text", Json{names.of_members[stand.member]}}};
+      if (is_section(member))
+        one.emplace_back("girth_mm", girth(member, stand.girth));
+      else
+        one.emplace_back("phi_deg", written::deg(Angle::rad(stand.phi)));
+      one.emplace_back("z_mm", written::mm(stand.z));
+      out.emplace_back(std::move(one));
+    }
     return Json{std::move(out)};
   }
 
@@ -235,7 +207,7 @@ class PartWriter {
     Json::Array out;
     for (const auto& hole : piece.holes) {
       const auto& how = frame_.joints[hole.joint].how;
-      auto branch = Fields{}(hole.branch);
+      auto branch = written::Fields{}(hole.branch);
       branch.emplace(branch.begin(), "id", Json{names.of_members[hole.member]});
       branch.insert(branch.begin() + 2, {"wall_mm", Json{request_.walls[hole.member]}});
       Json::Object joint{{"kind", Json{std::string(name_of(how.kind))}}, {"gap_mm", Json{how.gap}}};
@@ -302,6 +274,31 @@ Result<Forms> forms(const PartWriter& writer, const Names& names, const std::sto
   return out;
 }
 
+/// Turns members that are not round onto an earlier one whose part is theirs: a rectangular tube is
+/// the same after half a turn, a square one after a quarter.
+Result<void> turn_alike(const PartWriter& writer, const FrameRequest& request, const Names& names,
+                        frame::Frame& frame, const std::stop_token& stop) {
+  std::set<std::string> known;
+  for (std::size_t i = 0; i < frame.pieces.size(); ++i) {
+    const auto& section = request.spec.members[i].section;
+    if (!section) continue;
+    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    TRY(const auto own, writer.part(i, names));
+    auto text = dump(own);
+    const int step = section->height == section->width ? 1 : 2;
+    for (int quarters = step; quarters < 4 && !known.contains(text); quarters += step) {
+      TRY(auto turned, frame::turned(frame.pieces[i], *section, quarters));
+      TRY(const auto part, writer.part(i, turned, names));
+      auto other = dump(part);
+      if (!known.contains(other)) continue;
+      text = std::move(other);
+      frame.pieces[i] = std::move(turned);
+    }
+    known.insert(std::move(text));
+  }
+  return {};
+}
+
 /// Returns members as shapes, with the names of their current parts.
 Result<std::vector<frame::Shape>> shapes(const PartWriter& writer, const Forms& forms,
                                          const Names& names) {
@@ -321,7 +318,7 @@ Result<std::vector<frame::AlikeGroup>> gathered(const PartWriter& writer, const 
                                                 const FrameRequest& request, Names& names,
                                                 const std::stop_token& stop) {
   std::vector<const part::PartSpec*> parts;
-  for (const auto& one : known.read) parts.push_back(one ? &one->part : nullptr);
+  for (const auto& one : known.read) parts.push_back(one && !one->section ? &one->part : nullptr);
   frame::Gatherer gatherer(parts, known.texts, request.alike_within);
   for (std::size_t before = 0;;) {
     TRY(const auto all, shapes(writer, known, names));
@@ -336,11 +333,12 @@ Result<std::vector<frame::AlikeGroup>> gathered(const PartWriter& writer, const 
 
 }  // namespace
 
-Result<FrameParts> parts_of(const FrameRequest& request, const frame::Frame& frame,
+Result<FrameParts> parts_of(const FrameRequest& request, frame::Frame& frame,
                             const std::stop_token& stop) {
   const auto members = request.spec.members.size();
   const PartWriter writer(request, frame);
   Names names{.ids = false, .of_members = std::vector<std::string>(members, "-")};
+  TRY(turn_alike(writer, request, names, frame, stop));
   TRY(auto known, forms(writer, names, stop));
   TRY(auto groups, gathered(writer, known, request, names, stop));
   FrameParts out{.parts = {},

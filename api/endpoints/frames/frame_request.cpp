@@ -337,6 +337,7 @@ FrameRequest decode_frame_request(Reader& in) {
   const auto places = places_of(in, members, others);
   out.spec.members = members.members;
   out.walls = members.walls;
+  out.sections = members.sections;
   for (auto& one : others) out.spec.others.push_back({std::move(one.partner), std::move(one.name)});
   if (const auto within =
           in.optional_object("connect", [](Reader& c) { return c.number("within_mm", kDistance); }))

@@ -29,18 +29,19 @@ struct OwnEnd {
 struct FrameRequest {
   Preset preset = Preset::none;
   frame::FrameSpec spec;
-  std::vector<double> walls;        // of each member as it is given, perhaps out of range
-  std::vector<std::size_t> others;  // of each of the others: which of the request's it is
-  std::size_t others_left_out = 0;  // of too many, those that no joint names
-  Json::Object end;                 // default cut of an end, in the form of a part's end
-  Json tilt;                        // of a hole by default
-  double alike_within = 0.0;        // mm: if finished surfaces differ by at most this, their parts
-                                    // are one
-  std::vector<OwnCut> cuts;         // of each stated joint
-  std::vector<OwnEnd> ends;         // each end once
-  bool merge = false;               // pieces in line are one member
-  Json::Object once;                // values that every part has once: preset, kerf, torch and
-                                    // others
+  std::vector<double> walls;           // of each member as it is given, perhaps out of range
+  std::vector<Json::Object> sections;  // of each that is not round: the fields of its section
+  std::vector<std::size_t> others;     // of each of the others: which of the request's it is
+  std::size_t others_left_out = 0;     // of too many, those that no joint names
+  Json::Object end;                    // default cut of an end, in the form of a part's end
+  Json tilt;                           // of a hole by default
+  double alike_within = 0.0;  // mm: if finished surfaces differ by at most this, their parts
+                              // are one
+  std::vector<OwnCut> cuts;   // of each stated joint
+  std::vector<OwnEnd> ends;   // each end once
+  bool merge = false;         // pieces in line are one member
+  Json::Object once;          // values that every part has once: preset, kerf, torch and
+                              // others
 };
 
 [[nodiscard]] FrameRequest decode_frame_request(Reader& in);

@@ -81,8 +81,13 @@ struct FrameBase {
     auto& out = spec.merged.emplace();
     for (const auto& m : spec.spec.members) out.ids.push_back(m.name);
     std::vector<double> walls;
-    for (const auto& pieces : merged.pieces) walls.push_back(spec.walls[std::ranges::min(pieces)]);
+    std::vector<Json::Object> sections;
+    for (const auto& pieces : merged.pieces) {
+      walls.push_back(spec.walls[std::ranges::min(pieces)]);
+      sections.push_back(spec.sections[std::ranges::min(pieces)]);
+    }
     spec.walls = std::move(walls);
+    spec.sections = std::move(sections);
     std::vector<OwnCut> cuts;
     for (const auto joint : merged.joints) cuts.push_back(spec.cuts[joint]);
     for (auto& one : spec.ends) {

@@ -1,6 +1,7 @@
 #include "api/endpoints/frames/node_codec.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "api/endpoints/frames/renaming.hpp"
 #include "api/endpoints/hole_codec.hpp"
@@ -21,6 +22,7 @@ constexpr std::size_t kMostJoints = 1'000;  // of one member, with others
 /// A member, and its statements about its joints, with the other members still by name.
 struct NamedMember {
   joint::Member member;
+  bool nominal = false;
   std::vector<std::pair<std::string, joint::Joint>> joints;
 };
 
@@ -37,18 +39,40 @@ TubeSection decode_any_section(Reader& in) {
   return out;
 }
 
+enum class MemberKind { round, rectangular_tube, flat_oval_tube };
+constexpr std::array kMemberKinds{
+    Option<MemberKind>{"round", MemberKind::round},
+    Option<MemberKind>{"rectangular_tube", MemberKind::rectangular_tube},
+    Option<MemberKind>{"flat_oval_tube", MemberKind::flat_oval_tube}};
+
+/// Decodes the member's diameter and wall, or its section.
+void decode_shape(Reader& in, bool any_size, NamedMember& named) {
+  auto& out = named.member;
+  if (is_section(in.body())) {
+    const auto section = decode_section(in, decode_section_kind(in));
+    out.section = section.section;
+    named.nominal = section.nominal;
+    out.outer_radius = out.half_size();
+    out.wall = out.thickness();
+    return;
+  }
+  in.note("kind");
+  if (in.has("kind")) in.choice("kind", kMemberKinds);
+  const auto section = any_size ? decode_any_section(in) : decode_tube_section(in, true);
+  out.outer_radius = section.outer_radius;
+  out.wall = section.wall;
+}
+
 NamedMember decode_member(Reader& in, bool with_joints, bool any_size = false) {
   NamedMember named;
   auto& out = named.member;
   out.name = in.text("id");
   out.start = in.vector3("start_mm", any_size ? kSomewhere : kOffset);
   out.finish = in.vector3("end_mm", any_size ? kSomewhere : kOffset);
-  const auto section = any_size ? decode_any_section(in) : decode_tube_section(in, true);
-  out.outer_radius = section.outer_radius;
-  out.wall = section.wall;
+  decode_shape(in, any_size, named);
   out.priority = in.integer("priority", 0, kPriorities, 0);
   in.note("up");
-  if (in.has("up")) out.up = in.vector3("up", kComponent);
+  if (in.has("up") || out.section) out.up = in.vector3("up", kComponent);
   if (with_joints) in.note("joints");
   if (with_joints && in.has("joints"))
     named.joints = in.array("joints", {.min = 0, .max = kMostJoints}, [](Reader& j) {
@@ -115,9 +139,10 @@ joint::Link decode_link(Reader& in, const MemberIds& ids) {
 }
 
 NodeEnd decode_end(Reader& in) {
-  auto node = decode_named_node(in);
-  NodeEnd out{.node = std::move(node.spec)};
+  const auto node = decode_named_node(in);
+  NodeEnd out{.node = node.spec};
   out.member = known_member(in, node.ids, in.text("member"), "member");
+  out.section = section_of(node, out.member);
   out.end = in.choice("end", kNames<joint::End>);
   return out;
 }
@@ -154,7 +179,10 @@ NamedNode decode_named_node(Reader& in) {
   NamedNode out;
   const auto members = in.array("members", {.min = 1, .max = kMembers},
                                 [](Reader& m) { return decode_member(m, true); });
-  for (const auto& one : members) out.spec.members.push_back(one.member);
+  for (const auto& one : members) {
+    out.spec.members.push_back(one.member);
+    out.nominal.push_back(one.nominal);
+  }
   out.ids = decode_ids(in, out.spec.members);
   out.spec.joints = stated_joints(in, out.ids, members);
   if (in.is<Json::Array>("connect"))
@@ -189,6 +217,16 @@ std::vector<bool> out_of_range(Reader& in) {
   return out;
 }
 
+/// Returns the fields that define a section, as a target has them.
+Json::Object section_fields(const Reader& member) {
+  Json::Object out;
+  for (const auto& one : member.echo())
+    for (const auto* name : {"kind", "size", "height_mm", "width_mm", "wall_mm", "corners",
+                             "corner_radius_mm", "inner_corner_radius_mm"})
+      if (one.first == name) out.push_back(one);
+  return out;
+}
+
 }  // namespace
 
 NamedMembers decode_named_members(Reader& in) {
@@ -200,6 +238,7 @@ NamedMembers decode_named_members(Reader& in) {
          const auto i = out.walls.size();
          auto member = decode_member(m, false, i < any_size.size() && any_size[i]);
          out.walls.push_back(member.member.wall);
+         out.sections.push_back(section_fields(m));
          return member;
        })) {
     auto& m = one.member;
@@ -210,14 +249,52 @@ NamedMembers decode_named_members(Reader& in) {
   return out;
 }
 
-joint::NodeSpec decode_node(Reader& in) { return decode_named_node(in).spec; }
+std::optional<SectionTarget> section_of(const NamedNode& node, std::size_t member) {
+  if (member >= node.spec.members.size()) return std::nullopt;
+  const auto& m = node.spec.members[member];
+  if (!m.section) return std::nullopt;
+  return SectionTarget{.section = *m.section,
+                       .nominal = node.nominal[member],
+                       .length = (m.finish - m.start).norm()};
+}
 
-JointSource decode_joint(Reader& in) {
+void refuse_section(Reader& in, std::size_t member, const std::string& hint) {
+  const auto* items = in.find("members");
+  const auto* all = items == nullptr ? nullptr : items->as<Json::Array>();
+  if (all == nullptr || member >= all->size()) return;
+  const std::string field = (*all)[member].find("kind") != nullptr ? "kind" : "size";
+  in.issue({.code = ErrorCode::unsupported_target,
+            .pointer = "members/" + std::to_string(member) + "/" + field,
+            .limit = Json{"round"},
+            .hint = hint},
+           (*all)[member].find(field));
+}
+
+bool has_section_end(const Reader& in) {
+  const auto* node = in.find("node");
+  const auto* name = node == nullptr ? nullptr : node->find("member");
+  const auto* asked = name == nullptr ? nullptr : name->as<std::string>();
+  const auto* members = node == nullptr ? nullptr : node->find("members");
+  const auto* all = members == nullptr ? nullptr : members->as<Json::Array>();
+  if (asked == nullptr || all == nullptr) return false;
+  return std::ranges::any_of(*all, [&](const Json& one) {
+    const auto* field = one.find("id");
+    const auto* id = field == nullptr ? nullptr : field->as<std::string>();
+    return id != nullptr && *id == *asked && is_section(one);
+  });
+}
+
+JointSource decode_joint(Reader& in, Targets targets) {
   JointSource out;
   const auto which = in.exactly_one({"target", "node"});
   in.note("cutters");
   if (which == 1) {
-    out.node = in.object("node", decode_end);
+    out.node = in.object("node", [&](Reader& n) {
+      auto end = decode_end(n);
+      if (end.section && targets == Targets::round)
+        refuse_section(n, end.member, "ends of it are cut by " + std::string(kSectionPaths));
+      return end;
+    });
     if (in.has("cutters"))
       in.issue({.code = ErrorCode::exclusive_fields,
                 .pointer = "cutters",

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "api/endpoints/section_target.hpp"
 #include "api/wire/reader.hpp"
 #include "core/joint/node/node.hpp"
 
@@ -23,6 +24,7 @@ std::size_t known_member(Reader& in, const MemberIds& ids, const std::string& id
 struct NamedMembers {
   std::vector<joint::Member> members;
   std::vector<double> walls;  // as they are given: of one out of range its member has another
+  std::vector<Json::Object> sections;  // of those that are not round: its fields as they are given
   MemberIds ids;
 };
 /// If a member is out of range, it has no issue unless all are, because its part reports the error.
@@ -31,17 +33,23 @@ struct NamedMembers {
 struct NamedNode {
   joint::NodeSpec spec;
   MemberIds ids;
+  std::vector<bool>
+      nominal;  // of each member: its corners are those that a standard calculates with
 };
+/// Decodes `members` and `connect`: the content of a /v1/nodes request, and of `node` elsewhere.
 [[nodiscard]] NamedNode decode_named_node(Reader& in);
 
-/// Decodes `members` and `connect`: the content of a /v1/nodes request, and of `node` elsewhere.
-[[nodiscard]] joint::NodeSpec decode_node(Reader& in);
+/// Returns a member that is not round as a target; empty for a round one.
+[[nodiscard]] std::optional<SectionTarget> section_of(const NamedNode& node, std::size_t member);
+/// Refuses a member that is not round (unsupported_target) at its kind or size. `in` has `members`.
+void refuse_section(Reader& in, std::size_t member, const std::string& hint);
 
 /// One end of one member of a node.
 struct NodeEnd {
   joint::NodeSpec node;
   std::size_t member = 0;
   joint::End end = joint::End::start;
+  std::optional<SectionTarget> section = {};  // of a member that is not round
 };
 
 /// A joint given directly, or as one end of a node: exactly one of the two.
@@ -52,8 +60,12 @@ struct JointSource {
   std::optional<NodeEnd> node = {};
   joint::EndJoint found = {};  // of the node, once resolved
 };
-/// `target` with `cutters`, or `node`.
-[[nodiscard]] JointSource decode_joint(Reader& in);
+enum class Targets { round, any };
+/// `target` with `cutters`, or `node`. `targets`: of the node's end; one that is not round is
+/// refused, or is in `node->section`.
+[[nodiscard]] JointSource decode_joint(Reader& in, Targets targets = Targets::round);
+/// Returns true if the request's `node` asks for an end of a member that is not round.
+[[nodiscard]] bool has_section_end(const Reader& in);
 
 /// Finds target and partners of a node's end.
 ///

@@ -6,11 +6,13 @@
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/place_text.hpp"
+#include "api/endpoints/section_bevel_table.hpp"
 #include "api/limits.hpp"
 #include "api/pipeline.hpp"
+#include "api/wire/section_tables.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/table/end_tables.hpp"
-#include "core/joint/node/node.hpp"
+#include "core/joint/node/end_curves.hpp"
 #include "core/joint/node/overlap.hpp"
 
 namespace tubecut::api {
@@ -21,6 +23,7 @@ static_assert(limit::near_pairs_max == double{joint::kMostNearPairs} &&
 
 struct NodesRequest {
   joint::NodeSpec node;
+  std::vector<std::optional<SectionTarget>> sections;  // of each member that is not round
   bool profiles = false;
   joint::Sampling sampling;
   std::optional<bevel::TableSpec> tables;  // options, if requested
@@ -30,7 +33,7 @@ struct NodesRequest {
 struct NodesAnswer {
   std::vector<joint::Overlap> overlaps;
   // One per end, if requested; else empty.
-  std::vector<std::optional<joint::Intersection>> profiles;
+  std::vector<std::optional<joint::EndCurves>> profiles;
   std::vector<std::optional<bevel::EndTable>> tables;
 };
 
@@ -93,6 +96,19 @@ void encode_placement(const joint::TubeCutter& tube, Writer& p) {
   p.field("height_mm", tube.height);
 }
 
+/// Writes a section as the partner that /v1/intersections takes.
+void encode_partner(const joint::RectangularTubeCutter& box, Writer& p) {
+  p.field("kind", joint::RectangularTubeCutter::kName);
+  p.field("width_mm", box.width);
+  p.field("height_mm", box.height);
+  p.field("corner_radius_mm", box.corner);
+  p.object("axis", [&](Writer& a) {
+    a.column("point_mm", components(box.point));
+    a.column("direction", components(box.direction));
+  });
+  p.column("up", components(box.up));
+}
+
 void encode_cut(const joint::NodeSpec& spec, const joint::CutBy& cut, Writer& w) {
   w.field("member", spec.members[cut.member].name);
   if (cut.plane)
@@ -102,6 +118,7 @@ void encode_cut(const joint::NodeSpec& spec, const joint::CutBy& cut, Writer& w)
     });
   else
     w.object("placement", [&](Writer& p) { encode_placement(cut.placement.tube, p); });
+  if (cut.box) w.object("partner", [&](Writer& p) { encode_partner(*cut.box, p); });
   w.object("joint", [&](Writer& j) { encode_joint_kind(cut.stated.value_or(joint::Joint{}), j); });
   w.field("gap_mm", cut.gap);
   w.field("eccentricity_mm", cut.eccentricity);
@@ -125,11 +142,16 @@ struct Nodes {
       {"frame", "1e-12", ""},
       {"one_cuts_the_other", "0", ""},
   });
-  static constexpr auto kChecks = joined(kOwnChecks, kProfileChecks, kTableChecks);
+  static constexpr auto kSectionChecks = std::to_array<CheckLimit>(
+      {{"on_section", "1e-12 of the section's reach; of a table 1e-9 mm", "mm"}});
+  static constexpr auto kChecks = joined(kOwnChecks, kProfileChecks, kTableChecks, kSectionChecks);
 
   static Spec decode(Reader& in) {
     Spec out;
-    out.node = decode_node(in);
+    const auto node = decode_named_node(in);
+    out.node = node.spec;
+    for (std::size_t i = 0; i < node.spec.members.size(); ++i)
+      out.sections.push_back(section_of(node, i));
     const auto include = decode_include(in);
     out.profiles = include.profiles;
     out.sampling = decode_sampling(in);
@@ -171,12 +193,14 @@ struct Nodes {
                                                                  .partners = joint::seats(joint),
                                                                  .surfaces = joint::Surfaces::both,
                                                                  .sampling = spec.sampling},
-                                         *out.profiles[i], stop));
+                                         joint.section, *out.profiles[i], stop));
       }
     std::vector<std::vector<Check>> of_tables(out.tables.size());
     turns(of_tables.size(), [&](std::size_t i) {
       const auto& end = out.tables[i];
       if (end && end->table) of_tables[i] = bevel::verify(end->spec, *end->table, stop);
+      if (end && end->of_section)
+        of_tables[i] = bevel::verify(*end->section, end->spec, *end->of_section, stop);
     });
     for (const auto& table : of_tables) keep_worst(checks, table);
     return checks;
@@ -186,6 +210,10 @@ struct Nodes {
     auto all = joint::once_a_pair(spec.node, spec.solved);
     for (auto& warning : joint::warnings_of(spec.node, out.overlaps))
       all.push_back(std::move(warning));
+    for (std::size_t i = 0; i < out.profiles.size(); ++i)
+      if (const auto& end = spec.solved.ends[i]; end.overhangs && !out.profiles[i])
+        all.push_back(
+            {.code = WarningCode::end_open, .member = joint::place_of(end.member, end.end)});
     for (std::size_t i = 0; i < out.tables.size(); ++i) {
       if (!out.tables[i]) continue;
       const auto at = joint::place_of(spec.solved.ends[i].member, spec.solved.ends[i].end);
@@ -195,13 +223,49 @@ struct Nodes {
                        .detail = std::string(info(why->code).code) +
                                  (why->hint.empty() ? "" : ": " + why->hint)});
       else
-        for (const auto& warning : out.tables[i]->table->warnings)
+        for (const auto& warning : table_warnings(*out.tables[i]))
           if (warning.code != WarningCode::near_parallel)  // the node reports it too
             all.push_back({.code = warning.code, .member = at, .detail = warning.detail});
     }
     return all;
   }
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }
+
+  static const std::vector<Warning>& table_warnings(const bevel::EndTable& end) {
+    return end.of_section ? end.of_section->warnings : end.table->warnings;
+  }
+
+  /// Returns the columns of a section's table by those asked of a round one, whose places are
+  /// phi_deg.
+  static std::vector<std::string> section_columns(const bevel::TableSpec& spec,
+                                                  const std::vector<std::string>& asked) {
+    const auto there = section_bevel_column_names(spec);
+    std::vector<std::string> out;
+    for (const auto& name : asked) {
+      const auto& own = name == "phi_deg" ? std::string("girth_mm") : name;
+      if (std::ranges::find(there, own) != there.end()) out.push_back(own);
+    }
+    if (out.empty() && !asked.empty()) out.emplace_back("girth_mm");
+    return out;
+  }
+
+  static void encode_section_profiles(const joint::EndCurves& curves, Writer& w) {
+    w.array("profiles", curves.of_section->profiles,
+            [](Writer& each, const joint::SectionProfile& profile) {
+              each.object([&](Writer& o) { encode_profile(profile, o); });
+            });
+  }
+
+  static void encode_table_of(const Spec& spec, const joint::MemberEnd& end,
+                              const bevel::EndTable& made, Writer& w) {
+    if (made.table)
+      w.object("table", [&](Writer& o) { encode_table(made.spec, *made.table, spec.columns, o); });
+    if (made.of_section)
+      w.object("table", [&](Writer& o) {
+        encode_section(*spec.sections[end.member], o);
+        encode_table(made.spec, *made.of_section, section_columns(made.spec, spec.columns), o);
+      });
+  }
 
   static void encode_end(const Spec& spec, const Out& out, const joint::MemberEnd& end, Writer& w) {
     const bool start = end.end == joint::End::start;
@@ -212,18 +276,21 @@ struct Nodes {
     });
     w.object("frame", [&](Writer& o) { write_place(end.frame.origin, end.frame.rows, o); });
     w.field("free", end.free);
-    w.field("open", end.open);
+    w.field("open", end.open || end.overhangs);
     w.field("consumed", end.consumed);
+    if (const auto& section = spec.sections[end.member]) encode_section(*section, w);
     const auto index = 2 * end.member + (start ? 0U : 1U);
     static const std::vector<joint::Profile> kNone;
     const bool there = index < out.profiles.size() && out.profiles[index];
-    w.array("profiles", there ? out.profiles[index]->profiles : kNone,
-            [&](Writer& each, const joint::Profile& profile) {
-              each.object([&](Writer& o) { encode_profile(profile, spec.sampling, o); });
-            });
-    if (index >= out.tables.size() || !out.tables[index] || !out.tables[index]->table) return;
-    const auto& made = *out.tables[index];
-    w.object("table", [&](Writer& o) { encode_table(made.spec, *made.table, spec.columns, o); });
+    if (there && out.profiles[index]->of_section)
+      encode_section_profiles(*out.profiles[index], w);
+    else
+      w.array("profiles", there ? out.profiles[index]->profiles : kNone,
+              [&](Writer& each, const joint::Profile& profile) {
+                each.object([&](Writer& o) { encode_profile(profile, spec.sampling, o); });
+              });
+    if (index < out.tables.size() && out.tables[index])
+      encode_table_of(spec, end, *out.tables[index], w);
   }
 
   static void encode(const Spec& spec, const Out& out, Writer& w, const Turns& turns) {

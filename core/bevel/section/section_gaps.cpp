@@ -8,6 +8,8 @@
 namespace tubecut::bevel::detail {
 namespace {
 
+constexpr int kAcrossOpen = 64;  // samples if nothing is met
+
 /// The finished line of a table at row i of `rows`: at a jump the first of two belongs to the
 /// first.
 SectionSurface::Line line_of(const SectionSurface& surface, const SectionTable& table,
@@ -48,6 +50,24 @@ EdgeGaps edge_gaps(const SectionSetup& g, const TableSpec& spec, const SectionTa
     out.outer.push_back(nearest(SectionSurface::place(line, 0.0, line.outer)));
   }
   return out;
+}
+
+void note_overhang(const SectionSetup& g, SectionTable& out) {
+  for (const auto& [from, to] : g.outer.open) {
+    double worst = 0.0;
+    for (int k = 0; k <= kAcrossOpen; ++k) {
+      const auto at = g.wall.outer().at(from + (to - from) * k / kAcrossOpen).point;
+      double beside = std::numeric_limits<double>::infinity();
+      for (const auto& solid : g.solids) beside = std::min(beside, solid.clearance(at.x(), at.y()));
+      worst = std::max(worst, beside);
+    }
+    if (!(worst > joint::kSlightOverhang)) continue;
+    out.warnings.push_back({.code = WarningCode::wall_overhangs,
+                            .member = "target",
+                            .detail = "girth " + brief(from) + " to " + brief(to) +
+                                      " mm, its outer surface passes up to " + brief(worst) +
+                                      " mm outside every partner"});
+  }
 }
 
 }  // namespace tubecut::bevel::detail

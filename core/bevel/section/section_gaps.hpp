@@ -12,4 +12,8 @@ namespace tubecut::bevel::detail {
 [[nodiscard]] EdgeGaps edge_gaps(const SectionSetup& g, const TableSpec& spec,
                                  const SectionTable& table, const SectionTable& rows);
 
+/// Warns of places where the wall outside passes beside every partner by more than
+/// joint::kSlightOverhang.
+void note_overhang(const SectionSetup& g, SectionTable& out);
+
 }  // namespace tubecut::bevel::detail

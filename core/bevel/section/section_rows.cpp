@@ -7,6 +7,7 @@
 #include "core/base/try.hpp"
 #include "core/bevel/beam/torch_line.hpp"
 #include "core/bevel/table/required.hpp"
+#include "core/bevel/table/stated.hpp"
 #include "core/joint/section/section_length.hpp"
 
 namespace tubecut::bevel::detail {
@@ -61,6 +62,7 @@ Result<void> check(const section::Section& section, const TableSpec& spec) {
          .limit = section.corner,
          .unit = "mm",
          .hint = "at most the corner radius outside: a wider beam reaches around the corner"});
+  TRY(check_stated(spec));
   return check_groove(spec.groove);
 }
 
@@ -351,7 +353,10 @@ Result<SectionSetup> set_up(const section::Section& section, const TableSpec& sp
   TRY(auto cutters, grown_partners(spec));
   section::Wall wall(section);
   TRY(auto inner, joint::trace(cutters, wall.bore(), stop));
-  TRY(auto outer, joint::trace(cutters, wall.outer(), stop));
+  // With its root on the bore the wall may pass its partners outside, as far as that is open.
+  const bool outside = spec.root_surface == RootSurface::outer;
+  TRY(auto outer, outside ? joint::trace(cutters, wall.outer(), stop)
+                          : joint::trace_met(cutters, wall.outer(), stop));
   SectionSetup out{.spec = spec,
                    .wall = wall,
                    .cutters = std::move(cutters),

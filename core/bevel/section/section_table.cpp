@@ -320,6 +320,7 @@ class Maker {
 
   void note() {
     note_torch_binds();
+    detail::note_overhang(g_, out_);
     for (std::size_t i = 0; i < out_.at.size(); ++i) {
       const auto in = deepest_in_gap(surface_, i, g_.solids);
       if (i == 0 || in.depth > out_.penetration.depth) out_.penetration = in;

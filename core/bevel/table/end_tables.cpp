@@ -20,14 +20,20 @@ Result<EndTable> end_table(const joint::NodeSpec& spec, const joint::MemberEnd& 
   out.spec.target = joint.target;
   out.spec.partners = std::move(joint.partners);
   out.spec.stated = std::move(joint.stated);
-  auto made = table(out.spec, stop);
-  if (made) {
-    out.table = *std::move(made);
-  } else if (fails_whole_request(made.error().code())) {
-    return tl::unexpected(made.error());
-  } else {
-    out.refused = made.error().issues.front();
-  }
+  out.section = joint.section;
+  const auto keep = [&]<class T>(Result<T> made, std::optional<T>& where) -> Result<void> {
+    if (made)
+      where = *std::move(made);
+    else if (fails_whole_request(made.error().code()))
+      return tl::unexpected(made.error());
+    else
+      out.refused = made.error().issues.front();
+    return {};
+  };
+  if (out.section)
+    TRY(keep(section_table(*out.section, out.spec, stop), out.of_section));
+  else
+    TRY(keep(table(out.spec, stop), out.table));
   return out;
 }
 
@@ -68,7 +74,10 @@ class SharedNodes {
   }
 
  private:
-  static std::size_t nodes_of(const EndTable& one) { return one.table ? one.table->phi.size() : 0; }
+  static std::size_t nodes_of(const EndTable& one) {
+    if (one.of_section) return one.of_section->at.size();
+    return one.table ? one.table->phi.size() : 0;
+  }
 
   std::size_t asked_;
   std::size_t largest_;  // of one table; before the first, from the request

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/turns.hpp"
+#include "core/bevel/section/section_table.hpp"
 #include "core/bevel/table/table.hpp"
 #include "core/joint/node/node.hpp"
 
@@ -15,6 +16,8 @@ struct EndTable {
   TableSpec spec;  // as requested, with this end's target and partners
   std::optional<Table> table;
   std::optional<Issue> refused;
+  std::optional<section::Section> section = {};  // of a member that is not round
+  std::optional<SectionTable> of_section = {};   // its table, in place of `table`
 };
 
 /// Computes the tables of every end that is cut on all sides and not consumed, in the order of

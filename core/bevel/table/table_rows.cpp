@@ -5,6 +5,7 @@
 #include "core/base/try.hpp"
 #include "core/bevel/beam/beam.hpp"
 #include "core/bevel/beam/torch_line.hpp"
+#include "core/bevel/table/stated.hpp"
 #include "core/bevel/table/table_parts.hpp"
 
 namespace tubecut::bevel::detail {
@@ -17,7 +18,8 @@ bool set_in(const TableSpec& spec, std::size_t partner) {
   return is_set_in(stated_joint(spec, partner));
 }
 
-/// Checks that a joint has one gap, and that zones with gaps occur without flush rows.
+}  // namespace
+
 Result<void> check_stated(const TableSpec& spec) {
   for (std::size_t i = 0; i < spec.stated.size(); ++i) {
     if (!spec.stated[i]) continue;
@@ -36,6 +38,8 @@ Result<void> check_stated(const TableSpec& spec) {
   }
   return {};
 }
+
+namespace {
 
 /// Checks that B = 0 is requested and within the torch's range.
 Result<void> check_untilted(const TableSpec& spec) {

@@ -174,6 +174,7 @@ void note_overhang(const TableSetup& g, Table& out) {
                                                                  g.wall.outer * line.sin_phi));
       worst = std::max(worst, beside);
     }
+    if (!(worst > joint::kSlightOverhang)) continue;
     out.warnings.push_back({.code = WarningCode::wall_overhangs,
                             .member = "target",
                             .detail = "phi " + brief(from) + " to " + brief(to) +

@@ -111,10 +111,10 @@ class Entry {
     for (std::size_t next = 0; next < cells.size() && next < kMostCells; ++next) {
       if (stop.stop_requested()) return false;
       const auto cell = cells[next];  // a copy, because the list grows
-      const double off = cell.off();
+      const double off = m_.bundle_reach(cell.rho, cell.half_rho, cell.half_phi);
       if (!(least(cell, {off, off}, off) < off - kLeastShared)) continue;
       if (least(cell, {}, 0.0) < -kLeastShared) return true;
-      if (off > kSmall) cell.divide(cells);
+      if (off > kSmall) cell.divide(m_.turn_of(cell.rho), cells);
     }
     return false;
   }
@@ -141,10 +141,9 @@ class Entry {
   struct Cell {
     double phi, half_phi, rho, half_rho;
 
-    [[nodiscard]] double off() const { return detail::bundle_reach(rho, half_rho, half_phi); }
-    void divide(std::vector<Cell>& to) const {
+    void divide(double turn, std::vector<Cell>& to) const {
       auto one = *this, two = *this;
-      if (half_rho > rho * half_phi) {
+      if (half_rho > turn * half_phi) {
         one.half_rho = two.half_rho = 0.5 * half_rho;
         one.rho -= one.half_rho;
         two.rho += one.half_rho;
@@ -158,20 +157,20 @@ class Entry {
     }
   };
 
-  [[nodiscard]] Interval metal(const Cell& cell, const Vector3d& q, const detail::Slack& slack,
+  [[nodiscard]] Interval metal(const detail::Line& line, const detail::Slack& slack,
                                double reach) const {
-    const auto own = m_.span(cell.rho, q, slack);
-    return Interval{own.from, own.to}.cut(
-        inside(region_, m_.point(cell.rho, q, 0.0), m_.axis, reach));
+    if (m_.in_bore(line, slack.off, 0.0)) return {1.0, 0.0};
+    const auto own = m_.span(line.rho, line.q, slack);
+    return Interval{own.from, own.to}.cut(inside(region_, m_.point(line, 0.0), m_.axis, reach));
   }
 
   /// Returns the smallest signed distance on the bundle's middle generator.
   [[nodiscard]] double least(const Cell& cell, const detail::Slack& slack, double reach) const {
-    const Vector3d q = m_.side(cell.phi);
-    const auto z = metal(cell, q, slack, reach);
+    const auto line = m_.line(cell.phi, cell.rho);
+    const auto z = metal(line, slack, reach);
     if (z.empty()) return kInfinity;
     return by_kind(solid_, [&](const auto& solid) {
-      return solid.least_distance(m_.point(cell.rho, q, z.from), m_.point(cell.rho, q, z.to));
+      return solid.least_distance(m_.point(line, z.from), m_.point(line, z.to));
     });
   }
 
@@ -183,12 +182,12 @@ class Entry {
 
   /// Returns the deepest point of a generator.
   [[nodiscard]] BodyOverlap see(const Cell& cell) const {
-    const Vector3d q = m_.side(cell.phi);
-    const auto z = metal(cell, q, {}, 0.0);
+    const auto line = m_.line(cell.phi, cell.rho);
+    const auto z = metal(line, {}, 0.0);
     if (z.empty()) return {};
     const auto depth = [&](double at) {
       return by_kind(solid_,
-                     [&](const auto& solid) { return -solid.distance(m_.point(cell.rho, q, at)); });
+                     [&](const auto& solid) { return -solid.distance(m_.point(line, at)); });
     };
     const double step = (z.to - z.from) / kAlong;
     double best = z.from;
@@ -197,7 +196,7 @@ class Entry {
     const auto top =
         math::golden_maximum(depth, std::max(z.from, best - step), std::min(z.to, best + step));
     if (depth(top.at) > depth(best)) best = top.at;
-    return {.depth = depth(best), .at = m_.point(cell.rho, q, best)};
+    return {.depth = depth(best), .at = m_.point(line, best)};
   }
 
   const Finished& m_;
@@ -208,12 +207,12 @@ class Entry {
 /// Returns true if the member may enter the body, from its axis alone.
 bool near(const Member& m, const CutterKinds::Solid& solid, const Region& region) {
   const Vector3d along = (m.finish - m.start).normalized();
-  const auto z = Interval{0.0, (m.finish - m.start).norm()}.cut(
-      inside(region, m.start, along, m.outer_radius));
+  const auto z =
+      Interval{0.0, (m.finish - m.start).norm()}.cut(inside(region, m.start, along, m.reach()));
   if (z.empty()) return false;
   return by_kind(solid, [&](const auto& one) {
     const double from_axis = one.least_distance(m.start + z.from * along, m.start + z.to * along);
-    return from_axis < m.outer_radius - kLeastShared;
+    return from_axis < m.reach() - kLeastShared;
   });
 }
 

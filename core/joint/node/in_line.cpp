@@ -22,9 +22,8 @@ Facing facing(const Member& a, End of_a, const Member& b, End of_b) {
   return out;
 }
 
-bool in_line(const Facing& facing, double radius_a, double radius_b, double apart) {
-  return facing.angle <= kInLineMost &&
-         facing.beside <= kBesideMost + std::abs(radius_a - radius_b) &&
+bool in_line(const Facing& facing, double step, double apart) {
+  return facing.angle <= kInLineMost && facing.beside <= kBesideMost + step &&
          std::abs(facing.apart) <= apart;
 }
 
@@ -35,7 +34,7 @@ constexpr double kAsNear =
     1.0 * kRadPerDeg;  // if two ends continue this one within this difference, they are equal
 
 bool alike(const Member& a, const Member& b) {
-  return a.priority == b.priority && a.outer_radius == b.outer_radius;
+  return a.priority == b.priority && a.half_size() == b.half_size();
 }
 
 /// Returns true if the stated joint permits that the pair is in line.
@@ -91,7 +90,7 @@ class Best {
 double most_apart(const NodeSpec& spec, std::size_t a, std::size_t b) {
   if (const auto* within = std::get_if<Within>(&spec.connect))
     return std::max(within->distance, kBesideMost);
-  return kBesideMost + std::max(spec.members[a].outer_radius, spec.members[b].outer_radius);
+  return kBesideMost + std::max(spec.members[a].reach(), spec.members[b].reach());
 }
 
 /// Finds for each end the ends that continue it. If one of two ends is linked to the other, both
@@ -108,8 +107,8 @@ std::vector<Best> candidates(const NodeSpec& spec, const Joined& joined) {
       const auto& n = spec.members[b];
       for (const auto q : {2 * b, 2 * b + 1}) {
         const auto how = facing(m, end_of(p), n, end_of(q));
-        if (!in_line(how, m.outer_radius, n.outer_radius, most_apart(spec, a, b))) continue;
-        const bool unlike = m.outer_radius != n.outer_radius;
+        if (!in_line(how, size_step(m, n), most_apart(spec, a, b))) continue;
+        const bool unlike = !same_outline(m, n);
         out[p].see(q, how.angle, unlike);
         if (named) out[q].see(p, how.angle, unlike);
       }
@@ -161,7 +160,7 @@ std::set<Applied::Pair> going_on(const NodeSpec& spec, const Joined& joined, con
     for (const auto& touch : touches) {
       const auto b = touch.end / 2, a = touch.other;
       if (!alike(spec.members[a], spec.members[b]) || lines.line[a] == lines.line[b]) continue;
-      const bool passes = touch.near.inside > within + spec.members[a].outer_radius;
+      const bool passes = touch.near.inside > within + spec.members[a].reach();
       const bool continues = lines.mates[nearer_end(spec, touch)] && !lines.mates[touch.end];
       if (passes || continues) out.insert({a, b});
     }
@@ -217,7 +216,7 @@ std::vector<std::size_t> between(const NodeSpec& spec, const Joined& joined, con
     if (!lines.goes_before(spec, c, p / 2) || !lines.goes_before(spec, c, q / 2)) continue;
     const double sine = std::min(sine_between(spec.members[c], spec.members[p / 2]),
                                  sine_between(spec.members[c], spec.members[q / 2]));
-    const bool goes_on = touch.near.inside > 0.5 * spec.members[c].outer_radius ||
+    const bool goes_on = touch.near.inside > 0.5 * spec.members[c].reach() ||
                          lines.mates[nearer_end(spec, touch)].has_value();
     if (goes_on && sine > elementary::sin(kInLineMost)) out.push_back(c);
   }
@@ -228,17 +227,21 @@ std::vector<std::size_t> between(const NodeSpec& spec, const Joined& joined, con
 bool stops(const NodeSpec& spec, std::size_t end, const std::vector<std::size_t>& members) {
   const auto& m = spec.members[end / 2];
   const auto at = end_of(end);
-  const auto frame = member_frame(m.at(at), m.at(at) + m.into(at), m.into(at).unitOrthogonal());
+  const Vector3d x = m.section ? height_of(m) : m.into(at).unitOrthogonal();
+  const auto frame = member_frame(m.at(at), m.at(at) + m.into(at), x);
   if (!frame) return false;
-  std::vector<PreparedCutter> cutters;
+  std::vector<Cutter> cutters;
+  std::vector<PreparedCutter> prepared;
   for (const auto c : members) {
-    const auto& other = spec.members[c];
-    const auto placed =
-        place(frame->local(AxisLine{other.start, other.finish - other.start}), other.outer_radius);
+    const auto placed = cutter_of(spec.members[c], *frame);
     if (!placed) continue;
-    if (const auto one = prepare(Cutter(placed->tube))) cutters.push_back(*one);
+    if (const auto one = prepare(*placed)) {
+      cutters.push_back(*placed);
+      prepared.push_back(*one);
+    }
   }
-  return !cutters.empty() && closed(cutters, m.outer_radius - m.wall);
+  if (cutters.empty()) return false;
+  return m.section ? closed(cutters, m.section->bore()) : closed(prepared, m.outer_radius - m.wall);
 }
 
 }  // namespace
@@ -257,7 +260,7 @@ Short short_of(const NodeSpec& spec, const Lines& lines, std::size_t end, const 
     return -(at - m.at(end_of(e))).dot(m.into(end_of(e)).normalized());
   };
   Short out{.by = beyond(end), .instead = {}};
-  const double radius = spec.members[end / 2].outer_radius;
+  const auto& first = spec.members[end / 2];
   bool square = true;
   for (std::size_t i = 0; i < lines.mates.size();
        ++i) {  // along the line, at most its whole length
@@ -271,9 +274,14 @@ Short short_of(const NodeSpec& spec, const Lines& lines, std::size_t end, const 
       out.by = past;
       continue;
     }
-    const Vector3d along = n.into(end_of(mate->end)).normalized();
-    const double lower = (at - n.start).cross(along).norm() - n.outer_radius;
-    const bool same = square && n.outer_radius == radius;
+    const bool same = square && same_outline(first, n);
+    double lower = 0.0;
+    if (n.section) {
+      lower = distance_from(n, at);
+    } else {
+      const Vector3d along = n.into(end_of(mate->end)).normalized();
+      lower = (at - n.start).cross(along).norm() - n.outer_radius;
+    }
     if (same || lower <= kLower) return {};
     return {.by = lower, .instead = mate->end / 2};
   }

@@ -25,9 +25,10 @@ struct Facing {
 };
 [[nodiscard]] Facing facing(const Member& a, End of_a, const Member& b, End of_b);
 
-/// Returns true if two ends that face each other in this way may belong to one line. `apart`: their
-/// maximum distance, mm.
-[[nodiscard]] bool in_line(const Facing& facing, double radius_a, double radius_b, double apart);
+/// Returns true if two ends that face each other in this way may belong to one line. `step`: the
+/// difference of their radii, or of their sections (detail::size_step); `apart`: their maximum
+/// distance; mm.
+[[nodiscard]] bool in_line(const Facing& facing, double step, double apart);
 
 /// Returns a member's end as one number: 2 i for the start of member i, 2 i + 1 for its finish.
 [[nodiscard]] constexpr std::size_t end_index(std::size_t member, End end) {

@@ -30,7 +30,7 @@ using detail::sine_between;
 
 std::string place_of(std::size_t member) { return "members/" + std::to_string(member); }
 bool alike(const Member& a, const Member& b) {
-  return a.priority == b.priority && a.outer_radius == b.outer_radius;
+  return a.priority == b.priority && a.half_size() == b.half_size();
 }
 
 /// One member that cuts an end: its tube, or a mitre's plane.
@@ -47,7 +47,7 @@ Result<void> check_ambiguous(const NodeSpec& spec, const std::vector<Cutting>& a
   const Touch* second = nullptr;
   for (const auto& [touch, mitre] : above) {
     const auto& other = spec.members[touch.other];
-    const bool passing = touch.near.inside > within + other.outer_radius;
+    const bool passing = touch.near.inside > within + other.reach();
     if (!passing || !alike(other, spec.members[above.front().touch.other])) continue;
     if (nearest == nullptr || touch.near.distance < nearest->near.distance)
       second = std::exchange(nearest, &touch);
@@ -153,7 +153,7 @@ std::optional<Joint> joint_with(const NodeSpec& spec, const Applied& applied, st
   const auto stated = applied.joints.find(std::minmax(member, other));
   if (stated == applied.joints.end()) return std::nullopt;
   auto out = stated->second;
-  if (out.kind == JointKind::set_in && !out.depth) out.depth = spec.members[other].wall;
+  if (out.kind == JointKind::set_in && !out.depth) out.depth = spec.members[other].thickness();
   return out;
 }
 
@@ -174,8 +174,8 @@ Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& ap
       cut.plane = PlaneCutter{frame.rows * mitre->point, frame.rows * mitre->normal};
       cut.eccentricity = mitre->eccentricity;
     } else {
-      TRY(cut.placement,
-          under(place_of(touch.other), place(frame.local(axis), other.outer_radius)));
+      TRY(cut.placement, under(place_of(touch.other), place(frame.local(axis), other.reach())));
+      if (other.section) cut.box = box_of(other, frame);
       // The frame was defined in this way.
       if (!spec.members[member].up && &one == chord) cut.placement.tube.clocking = Angle{};
       cut.eccentricity = std::abs(cut.placement.tube.offset);
@@ -190,7 +190,13 @@ Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& ap
 /// longer as these lean.
 double mitre_step(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut) {
   if (!cut.plane) return 0.0;
+  const auto& own = spec.members[end.member];
   const auto& other = spec.members[cut.member];
+  if (own.section || other.section) {
+    const Eigen::Matrix3d out = end.frame.rows.transpose();
+    return detail::edge_step(own, other, end.frame.origin + out * cut.plane->point,
+                             out * cut.plane->normal.normalized());
+  }
   const double r = spec.members[end.member].outer_radius, s = other.outer_radius;
   const Vector3d normal = cut.plane->normal.normalized();
   const Vector3d along = end.frame.rows * (other.finish - other.start).normalized();
@@ -213,7 +219,7 @@ void warn(const NodeSpec& spec, const MemberEnd& end, const Around& around,
     return around.applied.found.contains(std::minmax(end.member, cut.member)) ? kFoundStep : kStep;
   };
   if (const auto& missed = around.missed) {
-    const double off = missed->near.distance - spec.members[missed->other].outer_radius;
+    const double off = missed->near.distance - spec.members[missed->other].reach();
     out.push_back({.code = WarningCode::free_end,
                    .member = at,
                    .detail = called(spec, end.member) + " meets no member here, and misses " +

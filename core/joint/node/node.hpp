@@ -25,6 +25,7 @@
 #include "core/base/variant.hpp"
 #include "core/joint/intersection.hpp"
 #include "core/joint/joint.hpp"
+#include "core/joint/node/member.hpp"
 #include "core/joint/placement.hpp"
 
 namespace tubecut::joint {
@@ -32,27 +33,8 @@ namespace tubecut::joint {
 /// Maximum number of cutters of one end.
 inline constexpr std::size_t kMostCutters = 64;
 
-/// A tube by its centre-line in the world. Lengths in mm.
-struct Member {
-  Eigen::Vector3d start = Eigen::Vector3d::Zero();
-  Eigen::Vector3d finish = Eigen::Vector3d::UnitX();
-  double outer_radius = 0.0;
-  double wall = 0.0;
-  int priority = 0;                        // a lower number cuts a higher one
-  std::optional<Eigen::Vector3d> up = {};  // phi = 0 on this side at both ends; empty: the chord's
-  std::string name = {};                   // only for messages
-
-  [[nodiscard]] const Eigen::Vector3d& at(End end) const {
-    return end == End::start ? start : finish;
-  }
-  /// Returns the direction from an end towards the other.
-  [[nodiscard]] Eigen::Vector3d into(End end) const {
-    return at(end == End::start ? End::finish : End::start) - at(end);
-  }
-};
-
 /// An end joins every member whose axis, between its ends, is within `distance` + that member's
-/// radius.
+/// radius, or reach of its section.
 struct Within {
   double distance = 0.0;
 };
@@ -64,11 +46,11 @@ struct Link {
 };
 
 /// Members that meet at one or more nodes. Of two that join, the one with the lower priority
-/// number, then the larger diameter cuts the other. If both are equal and found by `Within`, the
-/// one that continues where the other ends cuts; then the earlier in the list, for members in line
-/// the earliest of the line. Two members never cut each other. If no joint of two is stated, they
-/// are set on without a gap; if they are in line (in_line.hpp) and nothing between them cuts both
-/// on all sides, they are mitred.
+/// number, then the larger diameter (of a section the larger side) cuts the other. If both are
+/// equal and found by `Within`, the one that continues where the other ends cuts; then the earlier
+/// in the list, for members in line the earliest of the line. Two members never cut each other. If
+/// no joint of two is stated, they are set on without a gap; if they are in line (in_line.hpp) and
+/// nothing between them cuts both on all sides, they are mitred.
 struct NodeSpec {
   std::vector<Member> members;
   Variant<Within, std::vector<Link>> connect;
@@ -85,10 +67,12 @@ struct CutBy {
   std::size_t member = 0;
   Placement placement;  // in the frame of the end; its line's point is the member's start
   std::optional<PlaneCutter> plane = {};  // of a mitre, in the same frame: cuts instead of the tube
-  std::optional<Joint> stated = {};       // the stated joint, if any; set-in with its depth
-  double gap = 0.0;                       // from the end to the member's axis between its ends
-  double eccentricity = 0.0;              // distance of the axes; of a mitre at its plane
-  bool ghost = false;                     // the cut follows it beyond one of its own ends
+  std::optional<RectangularTubeCutter> box = {};  // of a section, likewise; the placement's tube
+                                                  // has its reach as radius
+  std::optional<Joint> stated = {};               // the stated joint, if any; set-in with its depth
+  double gap = 0.0;           // from the end to the member's axis between its ends
+  double eccentricity = 0.0;  // distance of the axes; of a mitre at its plane
+  bool ghost = false;         // the cut follows it beyond one of its own ends
   double missing =
       0.0;  // the distance for `ghost`, mm; if another member continues it, the step between them
   std::optional<std::size_t> instead = {};  // the continuing member, if its surface is lower
@@ -102,10 +86,11 @@ struct MemberEnd {
   std::vector<CutBy> cut_by;  // the chord first
   bool free = false;          // joins nothing
   bool open = false;          // some generator meets no cutter
+  bool overhangs = false;     // the same, but by at most kSlightOverhang
   bool consumed = false;      // the cut extends beyond the member's other end
 };
 
-/// Returns the body that cuts: the member's tube, or a mitre's plane.
+/// Returns the body that cuts: the member's tube or section, or a mitre's plane.
 [[nodiscard]] Partner partner_of(const CutBy& cut);
 
 struct Nodes {
@@ -125,11 +110,13 @@ struct Nodes {
 /// both. The plane passes through the point where the axes are nearest to each other (if they are
 /// in line, or that point is far from the ends: midway between the ends) at equal angles to both.
 ///
-/// Errors    zero_length, bad_reference_direction (members/i...); wrong_count (more than
-///           kMostCutters join one end); ambiguous_connection (two passing members, alike in
+/// Errors    zero_length, bad_reference_direction (members/i...; members/i/up: a section without
+///           it); those of section::check (members/i/...); wrong_count (more than kMostCutters join
+///           one end); ambiguous_connection (two passing members, alike in
 ///           priority and diameter, equally near); joint_contradicts, no_contact, out_of_range
-///           (members/i/joints/j: both sides differ; the two do not meet; the depth); out_of_range
-///           (a link's index); cancelled.
+///           (members/i/joints/j: both sides differ; the two do not meet; the depth);
+///           unsupported_combination (members/i/joints/j/plane: corner to corner, and a section is
+///           turned out of the plane of both axes); out_of_range (a link's index); cancelled.
 /// Accuracy  world -> numbers -> world 1e-12 relative (worst seen: see tests/core/joint/node_test).
 /// Cost      memory linear in members; time as `touches`, and 1 us for each cutter, 10 us for each
 ///           end whose cut may pass its partners' ends.
@@ -144,7 +131,8 @@ struct EndJoint {
   std::vector<std::optional<Joint>> stated;  // of each partner
   std::size_t member = 0;
   std::vector<std::size_t> cutters;
-  std::vector<Warning> warnings;  // those of `solve` about this end
+  std::vector<Warning> warnings;                 // those of `solve` about this end
+  std::optional<section::Section> section = {};  // of a target that is not round
 };
 
 /// Returns the path of an end in issues and warnings: "members/3/start".
@@ -156,14 +144,6 @@ struct EndJoint {
 [[nodiscard]] EndJoint joint_of(const NodeSpec& spec, const MemberEnd& end);
 /// Returns the surfaces on which the end lies, for its curves.
 [[nodiscard]] std::vector<Partner> seats(const EndJoint& joint);
-
-/// Computes the curves of every end that is cut on all sides; empty for other ends, and for those
-/// whose member is consumed.
-///
-/// Errors  too_many_nodes (of all ends together), cancelled.
-[[nodiscard]] Result<std::vector<std::optional<Intersection>>> profiles(
-    const NodeSpec& spec, const Nodes& nodes, const Sampling& sampling,
-    const std::stop_token& stop = {});
 
 /// Verifies the answer against the centre-lines in the world: axes by cross products, angles by
 /// half tangents, and who cuts whom from the rules.

@@ -15,10 +15,32 @@ using joint::place_of;
 
 Stretch stretch(const Member& m, double reach) { return {m.start, m.finish, reach}; }
 
+/// Checks a member that is not round: its height lies along its `up`.
+Result<void> check_section(const Member& m) {
+  TRY(section::check(*m.section));
+  constexpr const char* kHint = "a section requires it: its height lies along it";
+  const auto no_direction = [](double got) {
+    return fail({.code = ErrorCode::bad_reference_direction,
+                 .member = "up",
+                 .got = got,
+                 .limit = kParallel * kDegPerRad,
+                 .unit = "deg",
+                 .hint = kHint});
+  };
+  if (!m.up) return no_direction(0.0);
+  const auto frame = member_frame(m.start, m.finish, *m.up);
+  if (frame) return {};
+  auto error = frame.error();
+  for (auto& issue : error.issues) issue.member = "up";
+  return tl::unexpected(std::move(error));
+}
+
 Result<void> check(const NodeSpec& spec) {
   for (std::size_t i = 0; i < spec.members.size(); ++i)
     if (!((spec.members[i].finish - spec.members[i].start).norm() > 0.0))
       return zero_length(place_of(i));
+  for (std::size_t i = 0; i < spec.members.size(); ++i)
+    if (spec.members[i].section) TRY(under(place_of(i), check_section(spec.members[i])));
   const auto* links = std::get_if<std::vector<Link>>(&spec.connect);
   if (links == nullptr) return {};
   const auto n = spec.members.size();
@@ -35,7 +57,7 @@ Result<void> check(const NodeSpec& spec) {
 
 Result<Joined> joined_within(const NodeSpec& spec, double distance, const std::stop_token& stop) {
   std::vector<Stretch> stretches;
-  for (const auto& m : spec.members) stretches.push_back(stretch(m, distance + m.outer_radius));
+  for (const auto& m : spec.members) stretches.push_back(stretch(m, distance + m.reach()));
   TRY(const auto found, touches(stretches, kMostCutters, stop));
   Joined out(2 * spec.members.size());
   for (const auto& touch : found) out[touch.end].push_back(touch);
@@ -75,7 +97,7 @@ Result<Missed> missed(const NodeSpec& spec, const Joined& joined, const std::sto
   constexpr double kTimes = 3.0;
   std::vector<Stretch> stretches;
   for (const auto& m : spec.members)
-    stretches.push_back(stretch(m, kTimes * (within->distance + m.outer_radius)));
+    stretches.push_back(stretch(m, kTimes * (within->distance + m.reach())));
   std::vector<bool> free;
   for (const auto& touches : joined) free.push_back(touches.empty());
   TRY(auto out, nearest_touches(stretches, free, stop));

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "core/base/try.hpp"
+#include "core/joint/node/end_curves.hpp"
 #include "core/joint/node/node_parts.hpp"
 #include "core/joint/node/overlap.hpp"
 
@@ -13,12 +14,14 @@ std::string place_of(std::size_t member, End end) {
 
 Partner partner_of(const CutBy& cut) {
   if (cut.plane) return *cut.plane;
+  if (cut.box) return *cut.box;
   return cut.placement.tube;
 }
 
 detail::Seat detail::seat_of(const CutBy& cut) {
   const double by = seat(cut.stated, 0.0, 0.0);
   if (cut.plane) return grown(Seat(*cut.plane), by);
+  if (cut.box) return grown(Seat(*cut.box), by);
   return grown(Seat(cut.placement.tube), by);
 }
 
@@ -39,14 +42,15 @@ std::vector<Partner> seats(const EndJoint& joint) {
 
 EndJoint joint_of(const NodeSpec& spec, const MemberEnd& end) {
   const auto& m = spec.members[end.member];
-  EndJoint out{.target = {.outer_radius = m.outer_radius,
-                          .wall = m.wall,
+  EndJoint out{.target = {.outer_radius = m.half_size(),
+                          .wall = m.thickness(),
                           .length = (m.finish - m.start).norm()},
                .partners = {},
                .stated = {},
                .member = end.member,
                .cutters = {},
-               .warnings = {}};
+               .warnings = {},
+               .section = m.section};
   for (const auto& cut : end.cut_by) {
     out.partners.push_back(partner_of(cut));
     out.stated.push_back(cut.stated);
@@ -75,36 +79,67 @@ Result<EndJoint> joint_at(const NodeSpec& spec, std::size_t member, End end,
   return out;
 }
 
-Result<std::vector<std::optional<Intersection>>> profiles(const NodeSpec& spec, const Nodes& nodes,
-                                                          const Sampling& sampling,
-                                                          const std::stop_token& stop) {
-  std::vector<std::optional<Intersection>> out(nodes.ends.size());
+Result<EndCurves> curves(const IntersectionSpec& spec,
+                         const std::optional<section::Section>& section,
+                         const std::stop_token& stop) {
+  if (!section) {
+    TRY(auto round, intersect(spec, stop));
+    return EndCurves{std::move(round)};
+  }
+  TRY(auto made, intersect(*section, spec, stop));
+  EndCurves out{{.profiles = {}, .warnings = made.warnings}};
+  out.of_section = std::move(made);
+  return out;
+}
+
+std::vector<Check> verify(const IntersectionSpec& spec,
+                          const std::optional<section::Section>& section, const EndCurves& answer,
+                          const std::stop_token& stop) {
+  if (section) return verify(*section, spec, *answer.of_section);
+  return verify(spec, answer, stop);
+}
+
+namespace {
+
+std::size_t rows_of(const EndCurves& curves) {
+  std::size_t out = 0;
+  for (const auto& profile : curves.profiles) out += profile.phi.size();
+  if (curves.of_section)
+    for (const auto& profile : curves.of_section->profiles) out += profile.z.size();
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<std::optional<EndCurves>>> profiles(const NodeSpec& spec, const Nodes& nodes,
+                                                       const Sampling& sampling,
+                                                       const std::stop_token& stop) {
+  std::vector<std::optional<EndCurves>> out(nodes.ends.size());
   auto left = sampling;
   for (std::size_t i = 0; i < nodes.ends.size(); ++i) {
     const auto& end = nodes.ends[i];
     if (end.cut_by.empty() || end.open || end.consumed) continue;
     const auto joint = joint_of(spec, end);
-    auto curves = intersect({.target = joint.target,
-                             .partners = seats(joint),
-                             .surfaces = Surfaces::both,
-                             .sampling = left},
-                            stop);
-    if (!curves) {
-      const auto code = curves.error().code();
+    auto made = curves({.target = joint.target,
+                        .partners = seats(joint),
+                        .surfaces = Surfaces::both,
+                        .sampling = left},
+                       joint.section, stop);
+    if (!made) {
+      const auto code = made.error().code();
       if (code == ErrorCode::member_consumed || code == ErrorCode::open_profile ||
           code == ErrorCode::no_contact)
         continue;
-      return tl::unexpected(curves.error());
+      return tl::unexpected(made.error());
     }
-    std::size_t used = 0;
-    for (const auto& profile : curves->profiles) used += profile.phi.size();
+    const auto used = rows_of(*made);
     if (used > left.max_nodes)
       return fail({.code = ErrorCode::too_many_nodes,
                    .member = "sampling",
                    .got = static_cast<double>(sampling.max_nodes - left.max_nodes + used),
                    .limit = static_cast<double>(sampling.max_nodes)});
     left.max_nodes -= used;
-    out[i] = *std::move(curves);
+    out[i] = *std::move(made);
   }
   return out;
 }

@@ -3,6 +3,8 @@
 
 #include "core/base/elementary.hpp"
 #include "core/joint/node/node_parts.hpp"
+#include "core/joint/section/section_contour.hpp"
+#include "core/joint/section/section_place.hpp"
 
 namespace tubecut::joint::detail {
 namespace {
@@ -16,18 +18,21 @@ constexpr std::size_t kScan = 180;  // generators in the scan for ghosts and the
 struct Bounds {
   double z, axial;
 };
-struct BoundsOn {
-  double rho;
-  Bounds operator()(const PlaneCutter& plane) const {
+/// A section lies within the tube of its placement.
+Bounds bounds_on(double rho, const CutBy& cut) {
+  const double by = seat(cut.stated, 0.0, 0.0);
+  if (cut.plane) {
+    auto plane = *cut.plane;
+    if (by != 0.0) plane.grow(by);
     const Vector3d n = plane.normal / plane.normal.z();
     return {plane.point.dot(n) + rho * elementary::hypot(n.x(), n.y()), 0.0};
   }
-  Bounds operator()(const TubeCutter& t) const {
-    const auto turn = elementary::sincos(t.inclination.rad());
-    return {t.height + (t.radius + rho * std::abs(turn.cos)) / turn.sin,
-            (t.radius * std::abs(turn.cos) + rho) / turn.sin};
-  }
-};
+  auto t = cut.placement.tube;
+  if (by != 0.0) t.grow(by);
+  const auto turn = elementary::sincos(t.inclination.rad());
+  return {t.height + (t.radius + rho * std::abs(turn.cos)) / turn.sin,
+          (t.radius * std::abs(turn.cos) + rho) / turn.sin};
+}
 
 /// Returns the position along a member, from its start, of w, which is measured from the common
 /// perpendicular along its axis.
@@ -49,7 +54,8 @@ double overhang(const NodeSpec& spec, const Applied& applied, std::size_t end) {
        it != applied.mitres.end() && it->first.first == end; ++it) {
     const double cosine = std::abs(it->second.normal.dot(axis));
     const double sine = it->second.normal.cross(axis).norm();
-    worsen(out, m.outer_radius * sine / cosine);
+    worsen(out,
+           m.section ? support(m, it->second.normal) / cosine : m.outer_radius * sine / cosine);
   }
   return out;
 }
@@ -61,10 +67,9 @@ class EndInspection {
       : spec_(spec), lines_(lines), applied_(applied), end_(end), seen_(end.cut_by.size()) {}
 
   /// Finds ghosts and the highest z on the generators of one surface.
-  void scan(std::span<const PreparedCutter> cutters, double rho, double length) {
-    for (std::size_t k = 0; k < kScan; ++k) {
-      const auto line =
-          generator_at(rho, kTwoPi * static_cast<double>(k) / static_cast<double>(kScan));
+  void scan(std::span<const PreparedCutter> cutters, const std::vector<Generator>& lines,
+            double length) {
+    for (const auto& line : lines) {
       const auto top = highest(cutters, line);
       if (!top) continue;
       auto& seen = seen_[top->cutter];
@@ -118,6 +123,41 @@ class EndInspection {
   std::vector<Presence> seen_;
 };
 
+/// The generators of one surface for the scan.
+std::vector<Generator> lines_on(double rho) {
+  std::vector<Generator> out;
+  for (std::size_t k = 0; k < kScan; ++k)
+    out.push_back(generator_at(rho, kTwoPi * static_cast<double>(k) / static_cast<double>(kScan)));
+  return out;
+}
+std::vector<Generator> lines_on(const section::Curve& outline) {
+  std::vector<Generator> out;
+  const double step = outline.girth() / static_cast<double>(kScan);
+  for (std::size_t k = 0; k < kScan; ++k)
+    out.push_back(generator_through(outline.at(static_cast<double>(k) * step).point));
+  for (const double s : outline.seams()) out.push_back(generator_through(outline.at(s).point));
+  return out;
+}
+
+/// One surface of the inspected member.
+struct Surface {
+  double reach;                                // from the axis
+  std::optional<section::Curve> outline = {};  // of a section
+  std::optional<section::Curve> smaller = {};  // the outline within kSlightOverhang
+};
+std::vector<Surface> surfaces_of(const Member& m) {
+  if (!m.section) return {{m.outer_radius - m.wall}, {m.outer_radius}};
+  const auto bore = m.section->bore(), outer = m.section->outer();
+  const auto smaller = [](double height, double width, double corner) {
+    return section::Curve(height - 2.0 * kSlightOverhang, width - 2.0 * kSlightOverhang,
+                          std::max(0.0, corner - kSlightOverhang));
+  };
+  const auto& s = *m.section;
+  return {{bore.reach(), bore,
+           smaller(s.height - 2.0 * s.wall, s.width - 2.0 * s.wall, s.inner_corner)},
+          {outer.reach(), outer, smaller(s.height, s.width, s.corner)}};
+}
+
 }  // namespace
 
 /// Returns true if every generator of radius rho meets some cutter.
@@ -127,16 +167,34 @@ bool closed(std::span<const PreparedCutter> cutters, double rho) {
   return divide(cutters, rho).open.empty();
 }
 
+// The lines that meet a convex cutter fill a convex region, so one that all lines of the circle
+// about the outline meet is met by the outline too.
+bool closed(std::span<const Cutter> cutters, const section::Curve& outline) {
+  for (const auto& cutter : cutters)
+    if (const auto one = prepare(cutter); one && met(*one, outline.reach()) == Met::always)
+      return true;
+  return trace(cutters, outline).has_value();
+}
+
 std::vector<Presence> inspect(const NodeSpec& spec, const Lines& lines, const Applied& applied,
                               MemberEnd& end) {
   const auto& m = spec.members[end.member];
   const double length = (m.finish - m.start).norm();
   const auto cutters = prepared_seats(end);
   EndInspection inspection(spec, lines, applied, end);
-  for (const double rho : {m.outer_radius - m.wall, m.outer_radius}) {
-    end.open = end.open || !closed(cutters, rho);
+  std::vector<Cutter> seats;
+  if (m.section)
+    for (const auto& cut : end.cut_by)
+      seats.push_back(by_kind(seat_of(cut), [](const auto& seat) { return Cutter(seat); }));
+  for (const auto& surface : surfaces_of(m)) {
+    const double rho = surface.reach;
+    if (!(surface.outline ? closed(seats, *surface.outline) : closed(cutters, rho))) {
+      const bool slightly = surface.outline ? closed(seats, *surface.smaller)
+                                            : closed(cutters, rho - kSlightOverhang);
+      (slightly ? end.overhangs : end.open) = true;
+    }
     const bool nothing = std::ranges::all_of(end.cut_by, [&](const CutBy& cut) {
-      const auto most = by_kind(seat_of(cut), BoundsOn{rho});
+      const auto most = bounds_on(rho, cut);
       if (cut.plane) return most.z < length;
       return most.z < length && !beyond(spec.members[cut.member], cut, most.axial) &&
              !beyond(spec.members[cut.member], cut, -most.axial);
@@ -144,7 +202,8 @@ std::vector<Presence> inspect(const NodeSpec& spec, const Lines& lines, const Ap
     if (nothing)
       inspection.all_there();
     else
-      inspection.scan(cutters, rho, length);
+      inspection.scan(cutters, surface.outline ? lines_on(*surface.outline) : lines_on(rho),
+                      length);
   }
   return inspection.take();
 }

@@ -112,8 +112,7 @@ Meeting meeting(const NodeSpec& spec, std::size_t p, std::size_t q) {
   const bool opposed = u.dot(v) < 0.0;
   if (opposed && !(square >= kInLine * kInLine)) return {midway, midway};
   const Meeting nearest{w.cross(v).dot(n) / square, w.cross(u).dot(n) / square};
-  const double near =
-      w.norm() + std::max(spec.members[p / 2].outer_radius, spec.members[q / 2].outer_radius);
+  const double near = w.norm() + std::max(spec.members[p / 2].reach(), spec.members[q / 2].reach());
   const bool far = std::max(std::abs(nearest.s), std::abs(nearest.t)) > near;
   return opposed && square < kNearlyInLine * kNearlyInLine && far ? Meeting{midway, midway}
                                                                   : nearest;
@@ -134,6 +133,13 @@ Vector3d mitre_normal(MitrePlane plane, const Vector3d& u, double r, const Vecto
   if (plane == MitrePlane::bisecting) return u - v;
   const double c = u.dot(v);
   return ((r + s * c) * u - (s + r * c) * v) / (r + s);
+}
+
+/// Returns the direction across unit `u` in the plane of `u` and `v`.
+Vector3d across(const Vector3d& u, const Vector3d& v) { return v - v.dot(u) * u; }
+/// Returns how far a member that leaves along `u` reaches from its axis in that plane.
+double extent(const Member& m, const Vector3d& u, const Vector3d& v) {
+  return m.section ? support(m, across(u, v).normalized()) : m.outer_radius;
 }
 
 /// Joins the two ends at the plane of this normal; their members join at no other end.
@@ -158,9 +164,10 @@ Result<void> mitre(const NodeSpec& spec, std::size_t index, Joined& joined, Appl
   const auto a = spec.joints[index].member, b = spec.joints[index].with;
   const auto [p, q] = facing_ends(spec, a, b);
   const Vector3d u = into(spec, p), v = into(spec, q);
-  const Vector3d normal =
-      mitre_normal(spec.joints[index].joint.plane, u, spec.members[a].outer_radius, v,
-                   spec.members[b].outer_radius);
+  const auto& first = spec.members[a];
+  const auto& second = spec.members[b];
+  const auto plane = spec.joints[index].joint.plane;
+  const Vector3d normal = mitre_normal(plane, u, extent(first, u, v), v, extent(second, v, u));
   if (!(normal.norm() >= 2.0 * kParallel))  // because the plane would lie along the members
     return fail(
         {.code = ErrorCode::parallel_axes,
@@ -169,6 +176,16 @@ Result<void> mitre(const NodeSpec& spec, std::size_t index, Joined& joined, Appl
                      ? "the two members lie along each other; no plane between them cuts both"
                      : "the two lie in line and their outlines have no corners; a bisecting "
                        "plane cuts both square"});
+  // Turned out of the plane of both axes, the outlines that face each other there are edges, and no
+  // plane makes the rest of both meet.
+  if (plane == MitrePlane::corner_to_corner &&
+      !(is_square_to(first, across(u, v)) && is_square_to(second, across(v, u))))
+    return fail({.code = ErrorCode::unsupported_combination,
+                 .member = place_of(spec, index) + "/plane",
+                 .got = std::string("corner_to_corner"),
+                 .limit = std::string("bisecting"),
+                 .unit = {},
+                 .hint = "a face of each section must be square to the plane of both axes"});
   face(spec, p, q, normal, joined, out);
   return {};
 }
@@ -184,7 +201,7 @@ Result<void> apply(const NodeSpec& spec, const Lines& lines, std::size_t index, 
   const auto& p = spec.members[a];
   const auto& q = spec.members[b];
   if (joint.kind == JointKind::through) {
-    const double reach = p.outer_radius + q.outer_radius;
+    const double reach = p.reach() + q.reach();
     if (!(nearness(Stretch{p.start, p.finish}, Stretch{q.start, q.finish}) < reach))
       return apart(spec, index, "the two do not reach each other");
     part(joined, a, b);
@@ -202,14 +219,17 @@ Result<void> apply(const NodeSpec& spec, const Lines& lines, std::size_t index, 
     return apart(spec, index,
                  "no end of " + called(spec, branch) + " joins " + called(spec, chord) +
                      ", which goes before it");
-  const double radius = spec.members[chord].outer_radius;
+  // Deeper than a section's corner radius there is no surface with round corners.
+  const auto& section = spec.members[chord].section;
+  const double radius = section ? section->corner : spec.members[chord].outer_radius;
   if (joint.depth && !(*joint.depth < radius))
     return fail({.code = ErrorCode::out_of_range,
                  .member = place_of(spec, index) + "/depth",
                  .got = *joint.depth,
                  .limit = radius,
                  .unit = "mm",
-                 .hint = "must be less than the chord's radius"});
+                 .hint = section ? "must be less than the chord's corner radius"
+                                 : "must be less than the chord's radius"});
   return {};
 }
 
@@ -219,7 +239,7 @@ bool goes_before(const NodeSpec& spec, std::size_t a, std::size_t b) {
   const auto& p = spec.members[a];
   const auto& q = spec.members[b];
   if (p.priority != q.priority) return p.priority < q.priority;
-  if (p.outer_radius != q.outer_radius) return p.outer_radius > q.outer_radius;
+  if (p.half_size() != q.half_size()) return p.half_size() > q.half_size();
   return a < b;
 }
 

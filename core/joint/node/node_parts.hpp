@@ -11,11 +11,12 @@
 #include "core/joint/nearness.hpp"
 #include "core/joint/node/in_line.hpp"
 #include "core/joint/node/node.hpp"
+#include "core/joint/node/shape.hpp"
 
 /// For `solve` only.
 namespace tubecut::joint::detail {
 
-/// Compares by priority, diameter and position in the list: a total order, so two members never cut
+/// Compares by priority, size and position in the list: a total order, so two members never cut
 /// each other.
 [[nodiscard]] bool goes_before(const NodeSpec& spec, std::size_t a, std::size_t b);
 /// Returns the member's name, or "member 3".
@@ -93,13 +94,14 @@ struct Short {
 void join_lines(const NodeSpec& spec, const Lines& lines, Joined& joined, Applied& out);
 
 /// The surface on which an end lies: as `partner_of`, at the joint's seat.
-using Seat = std::variant<TubeCutter, PlaneCutter>;
+using Seat = std::variant<TubeCutter, PlaneCutter, RectangularTubeCutter>;
 [[nodiscard]] Seat seat_of(const CutBy& cut);
 /// Returns the prepared cutters of an end.
 [[nodiscard]] std::vector<PreparedCutter> prepared_seats(const MemberEnd& end);
 
-/// Returns true if every generator of radius rho meets some cutter.
+/// Returns true if every generator of radius rho, or through an outline, meets some cutter.
 [[nodiscard]] bool closed(std::span<const PreparedCutter> cutters, double rho);
+[[nodiscard]] bool closed(std::span<const Cutter> cutters, const section::Curve& outline);
 
 /// Where a cutter holds an end.
 struct Presence {

@@ -63,6 +63,16 @@ Vector3d corner_of(const Vector3d& u, double r, const Vector3d& v, double s) {
   return r * from_u + (s - r * from_u.dot(from_v)) / u.dot(from_v) * u;
 }
 
+/// Returns how far a member reaches from its axis in the plane of its own direction and the
+/// other's: of a section half the side that lies in that plane.
+double extent(const Member& m, const Vector3d& own, const Vector3d& other) {
+  if (!m.section) return m.outer_radius;
+  const Vector3d side = own.cross(other).normalized();
+  const Vector3d up = m.up->cross(own);
+  return std::abs(up.normalized().dot(side)) > std::sqrt(0.5) ? 0.5 * m.section->height
+                                                              : 0.5 * m.section->width;
+}
+
 /// Checks that a mitre's plane is at equal angles to both members, the end's own before it and the
 /// other behind it, or holds the corner of their outlines; and that its point is midway between
 /// them, equally far from both axes.
@@ -75,11 +85,11 @@ void see_mitre(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Wor
   const Vector3d own = end.frame.rows.row(2);
   Vector3d along = (other.finish - other.start).normalized();
   if (along.dot(normal) > 0.0) along = -along;
-  const double off =
-      cut.stated && cut.stated->plane == MitrePlane::corner_to_corner
-          ? 0.5 * kPi -
-                between(corner_of(own, member.outer_radius, along, other.outer_radius), normal)
-          : between(own, normal) + between(along, normal) - kPi;
+  const double off = cut.stated && cut.stated->plane == MitrePlane::corner_to_corner
+                         ? 0.5 * kPi - between(corner_of(own, extent(member, own, along), along,
+                                                         extent(other, along, own)),
+                                               normal)
+                         : between(own, normal) + between(along, normal) - kPi;
   worsen(worst.angle, std::abs(off) * kDegPerRad);
   // At least both lengths, because any of the ends may be the plane's own point.
   const auto ends = [&](const Member& m) {
@@ -94,8 +104,24 @@ void see_mitre(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Wor
   worsen(worst.gap, std::abs(to_axis(end.frame.origin, other) - cut.gap) / scale);
 }
 
+/// Checks a section's box against its member: its axis, and that `up` lies in the plane of its
+/// height and its axis.
+void see_box(const MemberEnd& end, const RectangularTubeCutter& box, const Member& other,
+             Worst& worst) {
+  const Eigen::Matrix3d out = end.frame.rows.transpose();
+  const Line line{out * box.point, (out * box.direction).normalized()};
+  const double scale =
+      (other.start - end.frame.origin).norm() + (other.finish - end.frame.origin).norm();
+  for (const Vector3d& tip : {other.start, other.finish})
+    worsen(worst.axis, from_line(tip - end.frame.origin, line) / scale);
+  const Vector3d up = (out * box.up).normalized(), own = *other.up;
+  const Vector3d off = own - own.dot(line.direction) * line.direction;
+  worsen(worst.angle, between(up, off.normalized()) * kDegPerRad);
+}
+
 void see(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut, Worst& worst) {
   if (cut.plane) return see_mitre(spec, end, cut, worst);
+  if (cut.box) see_box(end, *cut.box, spec.members[cut.member], worst);
   const auto& member = spec.members[end.member];
   const auto& other = spec.members[cut.member];
   const auto& t = cut.placement.tube;
@@ -146,7 +172,7 @@ double wrong_cuts(const NodeSpec& spec, const Nodes& nodes) {
       const auto& by = spec.members[cut.member];
       const auto& of = spec.members[end.member];
       const bool lower = by.priority > of.priority ||
-                         (by.priority == of.priority && by.outer_radius < of.outer_radius);
+                         (by.priority == of.priority && by.half_size() < of.half_size());
       if (lower || cuts.contains({end.member, cut.member})) wrong += 1.0;
       cuts.insert({cut.member, end.member});
     }

@@ -32,12 +32,12 @@ double depth(const Finished& m, const Vector3d& p) {
   const Vector3d beside = from - z * m.axis;
   const double rho = beside.norm();
   const Vector3d q = rho > 0.0 ? Vector3d(beside / rho) : m.side(0.0);
-  const auto span = m.span(std::clamp(rho, m.inner, m.outer), q);
-  return std::min({m.outer - rho, z - span.from, span.to - z});
+  const auto span = m.span(m.section ? rho : std::clamp(rho, m.inner, m.outer), q);
+  return std::min({m.section ? m.below(p) : m.outer - rho, z - span.from, span.to - z});
 }
 
-/// The segment of a generator of `m` inside the other's extended outer cylinder and between its own
-/// cuts; and its smallest distance to that cylinder.
+/// The segment of a generator of `m` inside the other's extended outside and between its own cuts;
+/// and its smallest distance to that, or of a section any number of the same sign.
 struct Reach {
   double from, to, clearance;
 };
@@ -48,6 +48,14 @@ Reach reach(const Finished& m, const Finished& other, double rho, const Vector3d
   const Vector3d beside = p - p.dot(other.axis) * other.axis;
   const double square = across.squaredNorm();
   if (!(own.from < own.to)) return {0.0, 0.0, kInfinite};
+  if (other.section) {
+    const auto& s = *other.section;
+    if (square < kParallel * kParallel)
+      return {own.from, own.to, s.outside.distance(s.across(beside))};
+    const auto chord = s.outside.chord(s.across(beside), s.across(across));
+    const double from = std::max(own.from, chord.from), to = std::min(own.to, chord.to);
+    return {from, to, from < to ? -1.0 : kInfinite};
+  }
   if (square < kParallel * kParallel) return {own.from, own.to, beside.norm() - other.outer};
   const double middle = -beside.dot(across) / square;
   const double nearest = std::clamp(middle, own.from, own.to);
@@ -67,16 +75,18 @@ struct Deepest {
   Vector3d at = Vector3d::Zero();
 };
 
-/// A point in a member's wall: generator, and the fraction of its segment inside the other.
+/// A point in a member's wall: generator as of Finished::line, and the fraction of its segment
+/// inside the other.
 struct MetalPoint {
   double rho, phi, share;
 };
 
 void see(const Finished& m, const Finished& other, const MetalPoint& place, Deepest& out) {
-  const Vector3d q = m.side(place.phi);
-  const auto r = reach(m, other, place.rho, q);
+  const auto line = m.line(place.phi, place.rho);
+  if (m.in_bore(line, 0.0, 0.0)) return;
+  const auto r = reach(m, other, line.rho, line.q);
   if (!(r.clearance < 0.0 && r.from < r.to)) return;
-  const Vector3d p = m.point(place.rho, q, r.from + place.share * (r.to - r.from));
+  const Vector3d p = m.point(line, r.from + place.share * (r.to - r.from));
   const double deep = depth(other, p);
   if (deep <= out.depth) return;
   out.depth = deep;
@@ -125,6 +135,21 @@ void deepen(const Finished& m, const Finished& other, const std::stop_token& sto
   }
 }
 
+/// Returns where the outline of a section is nearest to a point, as Finished::line takes it.
+double nearest_turn(const Finished& m, const Vector3d& point) {
+  constexpr int kPlaces = 256;
+  const auto at = m.section->across(point - m.start);
+  double best = 0.0, least = kInfinite;
+  for (int k = 0; k < kPlaces; ++k) {
+    const double s = m.section->curve.girth() * k / kPlaces;
+    if (const double off = (m.section->curve.at(s).point - at).norm(); off < least) {
+      least = off;
+      best = kTwoPi * k / kPlaces;
+    }
+  }
+  return best;
+}
+
 /// Searches from a point that both share, at its own radius and at those of the wall: finds
 /// features that are thinner than the steps between generators.
 void deepen_from(const Finished& m, const Finished& other, const Vector3d& shared,
@@ -132,9 +157,14 @@ void deepen_from(const Finished& m, const Finished& other, const Vector3d& share
   const Vector3d from = shared - m.start;
   const double z = from.dot(m.axis);
   const Vector3d beside = m.first.frame.rows * (from - z * m.axis);
-  const double phi = elementary::atan2(beside.y(), beside.x());
-  for (const double rho : {beside.norm(), m.outer, 0.5 * (m.inner + m.outer), m.inner}) {
-    const auto r = reach(m, other, rho, m.side(phi));
+  double phi = elementary::atan2(beside.y(), beside.x()), own_rho = beside.norm();
+  if (m.section) {
+    phi = nearest_turn(m, shared);
+    own_rho = m.outer - m.below(shared);
+  }
+  for (const double rho : {own_rho, m.outer, 0.5 * (m.inner + m.outer), m.inner}) {
+    const auto line = m.line(phi, rho);
+    const auto r = reach(m, other, line.rho, line.q);
     if (!(r.from < r.to)) continue;
     const MetalPoint place{rho, phi, std::clamp((z - r.from) / (r.to - r.from), 0.0, 1.0)};
     Deepest own;
@@ -166,7 +196,7 @@ bool settled(const Nodes& nodes, const std::vector<Pair>& stated, std::size_t a,
   return std::ranges::binary_search(stated, Pair{a, b});
 }
 
-Stretch stretch(const Member& m) { return {m.start, m.finish, m.outer_radius}; }
+Stretch stretch(const Member& m) { return {m.start, m.finish, m.reach()}; }
 
 struct Box {
   Vector3d low, high;
@@ -176,9 +206,9 @@ struct Box {
   }
 };
 
-Box box_of(const Member& m) {
-  return {m.start.cwiseMin(m.finish).array() - m.outer_radius,
-          m.start.cwiseMax(m.finish).array() + m.outer_radius};
+Box bounds_of(const Member& m) {
+  return {m.start.cwiseMin(m.finish).array() - m.reach(),
+          m.start.cwiseMax(m.finish).array() + m.reach()};
 }
 
 /// Calls `visit(a, b)` for the pairs of members whose axes come nearer than their radii, until it
@@ -189,7 +219,7 @@ bool near_pairs(const NodeSpec& spec, std::optional<std::size_t> only, const std
                 F visit) {
   const auto& m = spec.members;
   std::vector<Box> boxes;
-  for (const auto& one : m) boxes.push_back(box_of(one));
+  for (const auto& one : m) boxes.push_back(bounds_of(one));
   std::vector<std::size_t> order(m.size()), open;
   std::iota(order.begin(), order.end(), 0U);
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return boxes[i].low.x(); });
@@ -198,8 +228,7 @@ bool near_pairs(const NodeSpec& spec, std::optional<std::size_t> only, const std
     for (const auto j : open) {
       if (stop.stop_requested()) return false;
       if ((only && *only != i && *only != j) || boxes[j].misses(boxes[i])) continue;
-      if (!(nearness(stretch(m[i]), stretch(m[j])) < m[i].outer_radius + m[j].outer_radius))
-        continue;
+      if (!(nearness(stretch(m[i]), stretch(m[j])) < m[i].reach() + m[j].reach())) continue;
       if (!visit(std::min(i, j), std::max(i, j))) return true;
     }
     open.push_back(i);

@@ -31,18 +31,15 @@ struct Interval {
 struct Cell {
   double phi, half_phi, rho, half_rho;
   Interval z;
-
-  /// Returns the largest distance of its generators from the middle one.
-  [[nodiscard]] double off() const { return bundle_reach(rho, half_rho, half_phi); }
 };
 
 /// A straight line relative to an axis: the squared distance is least^2 + sine^2 (z - at)^2.
-struct Line {
+struct Track {
   Vector3d beside, across;  // across the axis: of z = 0, and growing with z
   double along, rise;       // on the axis: of z = 0, and growing with z
   double sine, at, least;
 
-  Line(const Vector3d& from, const Vector3d& direction, const Vector3d& axis)
+  Track(const Vector3d& from, const Vector3d& direction, const Vector3d& axis)
       : along(from.dot(axis)), rise(direction.dot(axis)) {
     beside = from - along * axis;
     across = direction - rise * axis;
@@ -57,18 +54,34 @@ struct Line {
     const double half = std::sqrt((radius - least) * (radius + least)) / sine;
     return {at - half, at + half};
   }
-  /// Returns the intervals in the wall: on both sides of the bore, or one.
-  [[nodiscard]] std::array<Interval, 2> in_wall(double inner, double outer, Interval z) const {
-    const auto near = within(outer);
+  /// Returns the interval within an outline about the axis; may be empty.
+  [[nodiscard]] Interval within(const Outline& outline, const FinishedSection& of) const {
+    const auto from = of.across(beside);
+    if (!(sine > kAlong))
+      return !outline.empty() && outline.distance(from) <= 0.0 ? Interval{-kFar, kFar}
+                                                               : Interval{1.0, 0.0};
+    const auto chord = outline.chord(from, of.across(across));
+    return {chord.from, chord.to};
+  }
+  /// Returns the intervals in the wall, on both sides of the bore, or one: of a line within `off`
+  /// of this one, less half of the ball.
+  [[nodiscard]] std::array<Interval, 2> in_wall(const Finished& m, double off, Interval z) const {
+    Interval near{}, bore{1.0, 0.0};
+    if (m.section) {
+      near = within(m.section->outside.moved(off - kHalf), *m.section);
+      bore = within(m.section->bore.moved(kHalf - off), *m.section);
+    } else {
+      near = within(m.outer - kHalf + off);
+      if (const double inner = m.inner + kHalf - off; inner > 0.0) bore = within(inner);
+    }
     z = {std::max(z.from, near.from), std::min(z.to, near.to)};
-    const auto bore = inner > 0.0 ? within(inner) : Interval{1.0, 0.0};
     if (bore.empty()) return {z, Interval{1.0, 0.0}};
     return {Interval{z.from, std::min(z.to, bore.from)}, Interval{std::max(z.from, bore.to), z.to}};
   }
 };
 
 /// Returns the part of the line whose position on the axis is between `low` and `high`.
-Interval clip(const Line& line, Interval z, double low, double high) {
+Interval clip(const Track& line, Interval z, double low, double high) {
   if (std::abs(line.rise) <= kAlong) {
     const double slack = kAlong * (std::abs(z.from) + std::abs(z.to));
     const double there = line.along + line.rise * 0.5 * (z.from + z.to);
@@ -83,7 +96,7 @@ struct Seen {
   double rho;
   Vector3d q;
 };
-Seen seen(const Finished& m, const Line& line, double z) {
+Seen seen(const Finished& m, const Track& line, double z) {
   const Vector3d beside = line.beside + z * line.across;
   const double rho = beside.norm();
   return {rho, rho > 0.0 ? Vector3d(beside / rho) : m.side(0.0)};
@@ -114,25 +127,27 @@ class Search {
 
  private:
   std::optional<Vector3d> check_cell(const Cell& cell) {
-    const double off = cell.off();
-    const Vector3d q = m_.side(cell.phi);
-    const Line line(m_.start + cell.rho * q - other_.start, m_.axis, other_.axis);
-    const auto own = m_.span(cell.rho, q, {off, kHalf});
+    const double off = m_.bundle_reach(cell.rho, cell.half_rho, cell.half_phi);
+    const auto generator = m_.line(cell.phi, cell.rho);
+    if (m_.in_bore(generator, off, kHalf)) return std::nullopt;
+    const auto& [rho, q] = generator;
+    const Track line(m_.start + rho * q - other_.start, m_.axis, other_.axis);
+    const auto own = m_.span(rho, q, {off, kHalf});
     const Interval z{std::max(cell.z.from, own.from), std::min(cell.z.to, own.to)};
-    for (const auto& piece :
-         line.in_wall(other_.inner + kHalf - off, other_.outer - kHalf + off, z)) {
+    for (const auto& piece : line.in_wall(other_, off, z)) {
       if (piece.empty()) continue;
       const auto rest = between_ends(line, piece, off);
       if (rest.empty()) continue;
-      const auto middle = on_middle(line, cell.rho, q, rest);
-      if (middle.found) return m_.point(cell.rho, q, *middle.found);
+      const auto middle = on_middle(line, rho, q, rest);
+      if (middle.found && !m_.in_bore(generator, 0.0, kHalf))
+        return m_.point(rho, q, *middle.found);
       divide(cell, rest, line.sine, middle.in_wall);
     }
     return std::nullopt;
   }
 
   /// Returns an interval outside which every generator of the bundle is beyond the other's ends.
-  [[nodiscard]] Interval between_ends(const Line& line, Interval z, double off) const {
+  [[nodiscard]] Interval between_ends(const Track& line, Interval z, double off) const {
     const double middle = 0.5 * (z.from + z.to), half = 0.5 * (z.to - z.from);
     const auto at = seen(other_, line, middle);
     const auto ends = other_.span(at.rho, at.q, {off + half * line.sine, kHalf});
@@ -144,12 +159,12 @@ class Search {
     std::optional<double> found;  // z of a point in both
     bool in_wall = false;         // ignoring the other's ends
   };
-  [[nodiscard]] Middle on_middle(const Line& line, double rho, const Vector3d& q,
+  [[nodiscard]] Middle on_middle(const Track& line, double rho, const Vector3d& q,
                                  Interval z) const {
     const auto own = m_.span(rho, q, {0.0, kHalf});
     Middle out;
-    for (const auto& piece : line.in_wall(other_.inner + kHalf, other_.outer - kHalf,
-                                          {std::max(z.from, own.from), std::min(z.to, own.to)})) {
+    for (const auto& piece :
+         line.in_wall(other_, 0.0, {std::max(z.from, own.from), std::min(z.to, own.to)})) {
       if (piece.empty()) continue;
       out.in_wall = true;
       for (const double share : {0.5, 0.0, 1.0}) {
@@ -169,7 +184,7 @@ class Search {
   /// Divides the cell into two, across the longest side; along the generators only if the other's
   /// ends must be decided.
   void divide(const Cell& cell, Interval z, double sine, bool in_wall) {
-    const double round = cell.rho * cell.half_phi, across = cell.half_rho;
+    const double round = m_.turn_of(cell.rho) * cell.half_phi, across = cell.half_rho;
     const double along = curved_ ? 0.5 * (z.to - z.from) * sine : 0.0;
     if (std::max({round, across, along}) < kSmall) return;
     auto one = cell, two = cell;
@@ -204,16 +219,59 @@ Interval extent(const Finished& m) {
 /// Returns true if they are clear of each other: side by side, one in the other's bore, or one
 /// beyond the other's end.
 bool clear_of(const Finished& m, Interval z, const Finished& other, Interval ends) {
-  const Line axis(m.start - other.start, m.axis, other.axis);
+  const Track axis(m.start - other.start, m.axis, other.axis);
   const auto from_axis = [&](double at) { return (axis.beside + at * axis.across).norm(); };
   const double least = from_axis(std::clamp(axis.at, z.from, z.to));
   if (least >= m.outer + other.outer - kLeastShared) return true;
   const double most = std::max(from_axis(z.from), from_axis(z.to));
-  if (most + m.outer <= other.inner + kLeastShared) return true;
+  if (most + m.outer <= other.free_radius() + kLeastShared) return true;
   const double one = axis.along + axis.rise * z.from, two = axis.along + axis.rise * z.to;
   const double reach = m.outer * axis.sine;
   return std::max(one, two) + reach <= ends.from + kLeastShared ||
          std::min(one, two) - reach >= ends.to - kLeastShared;
+}
+
+/// Returns true if a plane along a section's face, or along both axes, has each on its own side.
+bool beside(const Finished& m, Interval z, const Finished& other, Interval ends) {
+  std::vector<Vector3d> directions{m.axis.cross(other.axis)};
+  for (const auto* one : {&m, &other})
+    if (one->section) {
+      directions.push_back(one->section->x);
+      directions.push_back(one->section->y);
+    }
+  return std::ranges::any_of(directions, [&](const Vector3d& along) {
+    const double length = along.norm();
+    if (!(length > kAlong)) return false;
+    const Vector3d n = along / length;
+    const double rise = m.axis.dot(n), other_rise = other.axis.dot(n);
+    const double apart = (other.start - m.start).dot(n);
+    const double thick = m.support(n) + other.support(n) - kLeastShared;
+    const double low = apart + std::min(other_rise * ends.from, other_rise * ends.to) -
+                       std::max(rise * z.from, rise * z.to);
+    const double high = std::min(rise * z.from, rise * z.to) - apart -
+                        std::max(other_rise * ends.from, other_rise * ends.to);
+    return low >= thick || high >= thick;
+  });
+}
+
+/// Returns true if all of `m` is in the bore of a section, also where it touches its faces: a
+/// member is the hull of its edges' discs, and the bore is convex.
+bool in_its_bore(const Finished& m, Interval z, const Finished& other) {
+  if (!other.section) return false;
+  std::vector<Vector3d> centers{Vector3d::Zero()};
+  double radius = m.outer;
+  if (m.section) {
+    const auto& s = *m.section;
+    radius = s.outside.corner;
+    const double h = s.outside.half_height - radius, w = s.outside.half_width - radius;
+    centers = {h * s.x + w * s.y, h * s.x - w * s.y, -h * s.x + w * s.y, -h * s.x - w * s.y};
+  }
+  return std::ranges::all_of(centers, [&](const Vector3d& center) {
+    return std::ranges::all_of(std::array{z.from, z.to}, [&](double at) {
+      const Vector3d p = m.start + at * m.axis + center - other.start;
+      return other.section->bore.distance(other.section->across(p)) + radius <= kLeastShared;
+    });
+  });
 }
 
 /// A plane that cuts a member, in the world: its metal lies where normal . p >= from.
@@ -255,6 +313,9 @@ std::optional<Vector3d> shared_metal(const Finished& a, const Finished& b,
   if (on_a.empty() || on_b.empty()) return std::nullopt;
   if (clear_of(a, on_a, b, on_b) || clear_of(b, on_b, a, on_a)) return std::nullopt;
   if (parted(a, b, on_b) || parted(b, a, on_a)) return std::nullopt;
+  if ((a.section || b.section) &&
+      (beside(a, on_a, b, on_b) || in_its_bore(a, on_a, b) || in_its_bore(b, on_b, a)))
+    return std::nullopt;
   return a.outer <= b.outer ? Search(a, b).run(stop) : Search(b, a).run(stop);
 }
 

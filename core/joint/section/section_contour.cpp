@@ -43,9 +43,25 @@ class Divider {
     for (std::size_t k = 0; k < places_.size(); ++k)
       labels_.push_back(label_at(0.5 * (places_[k] + after(k))));
     if (places_.empty()) labels_.push_back(label_at(0.5));
-    TRY(check_met());
-    TRY(assemble());
-    return check_hidden();
+    note_met();
+    assemble();
+    return {};
+  }
+  /// Refuses an outline that meets no partner, or not everywhere.
+  [[nodiscard]] Result<void> check_closed() const;
+  Result<void> check_hidden() {
+    for (const auto& [cutter, s] : hidden_) {
+      const double off = kBeside * curve_.girth();
+      if (label_at(s - off) != cutter && label_at(s + off) != cutter) continue;
+      return fail({.code = ErrorCode::unsupported_combination,
+                   .member = "cutters/" + std::to_string(cutter),
+                   .got = s,
+                   .limit = "an elbow that does not hide itself",
+                   .unit = "mm",
+                   .hint = "the elbow's bend hides a lower part of the same elbow from the target "
+                           "at this place of the girth"});
+    }
+    return {};
   }
 
  private:
@@ -103,17 +119,9 @@ class Divider {
     return best;
   }
 
-  Result<void> check_met() {
+  void note_met() {
     for (std::size_t i = 0; i < met_.size(); ++i)
       if (!met_[i]) out_.missed.push_back(i);
-    if (out_.missed.size() < met_.size()) return {};
-    return fail({.code = ErrorCode::no_contact,
-                 .member = "cutters",
-                 .got = 0.0,
-                 .limit = 1.0,
-                 .hint = "none of " + std::to_string(met_.size()) +
-                         " partners is met on the outline with a girth of " +
-                         brief(curve_.girth()) + " mm"});
   }
 
   [[nodiscard]] bool is_kink(double s, std::size_t cutter) const {
@@ -161,7 +169,7 @@ class Divider {
     return event;
   }
 
-  Result<void> assemble() {
+  void assemble() {
     std::vector<std::pair<double, Label>> starts;  // of stretches
     for (std::size_t k = 0; k < places_.size(); ++k) {
       const Label before = labels_[k > 0 ? k - 1 : labels_.size() - 1];
@@ -172,7 +180,6 @@ class Divider {
       if (before && next) out_.events.push_back(event_at(s, *before, *next));
     }
     if (starts.empty()) starts.emplace_back(0.0, labels_.front());
-    Intervals open;
     for (std::size_t k = 0; k < starts.size(); ++k) {
       const auto& [from, label] = starts[k];
       const double to =
@@ -180,33 +187,8 @@ class Divider {
       if (label)
         out_.segments.push_back({from, to, *label});
       else
-        open.emplace_back(from, to);
+        out_.open.emplace_back(from, to);
     }
-    if (open.empty()) return {};
-    return fail(
-        {.code = ErrorCode::open_profile,
-         .member = "cutters",
-         .got = std::move(open),
-         .limit = "a partner at every place of the girth",
-         .unit = "mm",
-         .hint = "at these places along the girth, from the middle of face 1, nothing is met "
-                 "on the outline with a girth of " +
-                 brief(curve_.girth()) + " mm"});
-  }
-
-  Result<void> check_hidden() {
-    for (const auto& [cutter, s] : hidden_) {
-      const double off = kBeside * curve_.girth();
-      if (label_at(s - off) != cutter && label_at(s + off) != cutter) continue;
-      return fail({.code = ErrorCode::unsupported_combination,
-                   .member = "cutters/" + std::to_string(cutter),
-                   .got = s,
-                   .limit = "an elbow that does not hide itself",
-                   .unit = "mm",
-                   .hint = "the elbow's bend hides a lower part of the same elbow from the target "
-                           "at this place of the girth"});
-    }
-    return {};
   }
 
   SectionContour& out_;
@@ -219,6 +201,26 @@ class Divider {
   std::vector<detail::PieceEvents::Kink> kinks_;
   std::vector<detail::PieceEvents::Hidden> hidden_;
 };
+
+Result<void> Divider::check_closed() const {
+  if (out_.missed.size() == met_.size())
+    return fail({.code = ErrorCode::no_contact,
+                 .member = "cutters",
+                 .got = 0.0,
+                 .limit = 1.0,
+                 .hint = "none of " + std::to_string(met_.size()) +
+                         " partners is met on the outline with a girth of " +
+                         brief(curve_.girth()) + " mm"});
+  if (out_.open.empty()) return {};
+  return fail({.code = ErrorCode::open_profile,
+               .member = "cutters",
+               .got = out_.open,
+               .limit = "a partner at every place of the girth",
+               .unit = "mm",
+               .hint = "at these places along the girth, from the middle of face 1, nothing is met "
+                       "on the outline with a girth of " +
+                       brief(curve_.girth()) + " mm"});
+}
 
 /// Every cutter prepared; one that cannot be met from this outline is an error of its own.
 Result<std::vector<PreparedCutter>> prepared(std::span<const Cutter> cutters, double wide) {
@@ -250,13 +252,16 @@ Result<std::vector<PreparedCutter>> prepared(std::span<const Cutter> cutters, do
 
 }  // namespace
 
-Result<SectionContour> trace(std::span<const Cutter> cutters, const Curve& curve,
-                             const std::stop_token& stop) {
+namespace {
+
+Result<SectionContour> divided(std::span<const Cutter> cutters, const Curve& curve, bool closed,
+                               const std::stop_token& stop) {
   if (cutters.empty()) return fail({.code = ErrorCode::wrong_count, .member = "cutters"});
   SectionContour out{.curve = curve,
                      .cutters = {},
                      .events = {},
                      .segments = {},
+                     .open = {},
                      .missed = {},
                      .near_parallel = {},
                      .grazed = {}};
@@ -264,8 +269,24 @@ Result<SectionContour> trace(std::span<const Cutter> cutters, const Curve& curve
   for (std::size_t i = 0; i < out.cutters.size(); ++i)
     if (sin_inclination(out.cutters[i]) < kNearParallel) out.near_parallel.push_back(i);
   for (const auto& cutter : out.cutters) out.grazed.push_back(detail::grazed_faces(cutter, curve));
-  TRY(Divider(out, stop).divide());
+  Divider divider(out, stop);
+  TRY(divider.divide());
+  if (closed) {
+    TRY(divider.check_closed());
+  }
+  TRY(divider.check_hidden());
   return out;
+}
+
+}  // namespace
+
+Result<SectionContour> trace(std::span<const Cutter> cutters, const Curve& curve,
+                             const std::stop_token& stop) {
+  return divided(cutters, curve, true, stop);
+}
+Result<SectionContour> trace_met(std::span<const Cutter> cutters, const Curve& curve,
+                                 const std::stop_token& stop) {
+  return divided(cutters, curve, false, stop);
 }
 
 double SectionContour::height(std::size_t cutter, const Station& at) const {

@@ -42,6 +42,7 @@ struct SectionContour {
   std::vector<PreparedCutter> cutters;
   std::vector<SectionEvent> events;         // ascending s
   std::vector<SectionSegment> segments;     // segment k begins at event k; without events: one
+  Intervals open;                           // s; no cutter is hit: no segment, no event at its ends
   std::vector<std::size_t> missed;          // cutters no generator hits
   std::vector<std::size_t> near_parallel;   // within 5 deg of parallel
   std::vector<std::array<bool, 4>> grazed;  // by cutter: faces that its silhouette runs along
@@ -67,6 +68,10 @@ struct SectionContour {
 [[nodiscard]] Result<SectionContour> trace(std::span<const Cutter> cutters,
                                            const section::Curve& curve,
                                            const std::stop_token& stop = {});
+/// The same of an outline that need not meet a partner everywhere, or any.
+[[nodiscard]] Result<SectionContour> trace_met(std::span<const Cutter> cutters,
+                                               const section::Curve& curve,
+                                               const std::stop_token& stop = {});
 
 /// Returns the segment that holds s ([0, girth)); at an event the one that begins there.
 [[nodiscard]] const SectionSegment& segment_at(const SectionContour& contour, double s);

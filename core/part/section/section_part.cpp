@@ -75,6 +75,12 @@ std::vector<SectionMark> marks(const SectionPartSpec& spec, const SectionPart& p
     const double middle = 0.5 * (from + to);
     out.push_back({Mark::Kind::part_mark, spec.name, 0.0, middle, middle});
   }
+  const double dz = -lowest(p.start.own);
+  for (auto mark : spec.partners) {
+    mark.z_from += dz;
+    mark.z_to += dz;
+    out.push_back(std::move(mark));
+  }
   return out;
 }
 

@@ -36,11 +36,19 @@
 
 namespace tubecut::part {
 
+/// A line or point to be drawn on the outside for the fitter.
+struct SectionMark {
+  Mark::Kind kind = Mark::Kind::datum_line;
+  std::string text = {};
+  double s = 0.0, z_from = 0.0, z_to = 0.0;
+};
+
 struct SectionPartSpec {
   section::Section section;
   double length = 0.0;  // between the work points
   EndSpec start, finish;
-  joint::MemberFrame start_frame = {};  // of the start, in the world; the identity if unknown
+  joint::MemberFrame start_frame = {};     // of the start, in the world; the identity if unknown
+  std::vector<SectionMark> partners = {};  // in the start's frame
   std::string name = {};
   double clamping = 0.0, facing = 0.0;  // allowances of the blank
   double density = 7850.0;              // kg/m^3
@@ -74,12 +82,6 @@ struct SectionEnd {
 /// The part along one face and along the corner that follows it, outside, mm.
 struct FaceLength {
   double length = 0.0, corner = 0.0;
-};
-
-struct SectionMark {
-  Mark::Kind kind = Mark::Kind::datum_line;
-  std::string text = {};
-  double s = 0.0, z_from = 0.0, z_to = 0.0;
 };
 
 struct SectionPart {

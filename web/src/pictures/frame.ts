@@ -1,5 +1,5 @@
 import {rowsOf, type Json, type Row} from '../json';
-import type {Assembly, Frame, HoledTube, Partner, Picture, Solid, Table, Vector} from '../picture';
+import {heightsOf, reachOf, type Assembly, type Frame, type MemberPart, type Partner, type Picture, type Solid, type Table, type Vector} from '../picture';
 import type {Answer} from '../service';
 import {shownUnit} from '../units';
 import {choice, term, withUnit} from '../words';
@@ -7,7 +7,8 @@ import type {Context} from './context';
 import {figures, plural, text} from './facts';
 import {itemsOf, lightsOf, size, standings, told, toneOf, type Told} from './frame_items';
 import {add, bounds, dot, frame, partner, placed, squareEnd, tube, unitVector, vector, type Sizes} from './geometry';
-import {finished, reach} from './part';
+import {finished} from './part';
+import {endOf, girthOf, shellOf, squareShell, type ShellEnd} from './section_solid';
 
 const link = 'frame';
 
@@ -39,7 +40,12 @@ function cutList(cuts: Row[]): Table {
     id: 'cut_list',
     title: 'Cut list',
     names: true,
-    head: [...head, {text: `size ${shownUnit('mm')}`, about: 'Outer diameter × wall.'}, ...lengths.map((key) => term(key, 'cut_list')), term('verdict')],
+    head: [
+      ...head,
+      {text: `size ${shownUnit('mm')}`, about: 'Outer diameter × wall, or height × width × wall.'},
+      ...lengths.map((key) => term(key, 'cut_list')),
+      term('verdict'),
+    ],
     rows: cuts.map((cut) => [
       {text: String(cut['part']), about: (cut['members'] as string[]).join(', ')},
       text('count', cut['count']),
@@ -62,8 +68,9 @@ function solidOf(given: Told, others: Row[], sizes: Sizes, said: string): Solid 
   const lines = rowsOf(given.answer.request['members']);
   const assembly = assemblyOf(given, lines);
   const corners = assembly.members.flatMap(({part, frame: to}) => {
-    const {outer, from, to: end} = assembly.parts[part] as HoledTube;
-    return reach(from, end).flatMap((z) => [-outer, outer].map((x) => placed(to, [x, x, z])));
+    const own = assembly.parts[part] as MemberPart;
+    const outer = reachOf(own);
+    return bounds(heightsOf(own).flat()).flatMap((z) => [-outer, outer].map((x) => placed(to, [x, x, z])));
   });
   const box = [0, 1, 2].map((k) => bounds(corners.map((p) => p[k] as number)));
   const centre = box.map(([low, high]) => (low + high) / 2) as Vector;
@@ -93,11 +100,12 @@ function eyeOn(extent: number[]): Vector {
 
 /** A member without a part is drawn as the tube it would be cut from. */
 function assemblyOf(given: Told, lines: Row[]): Assembly {
-  const parts = given.cuts.map((cut, i): HoledTube => {
+  const parts = given.cuts.map((cut, i): MemberPart => {
+    const line = lines.find((each) => each['id'] === cut['part']);
+    if ('height_mm' in cut) return sectionMember(cut, given.parts[i], line);
     const dimensions = {outer: Number(cut['outer_diameter_mm']), wall: Number(cut['wall_mm'])};
     const made = given.parts[i]?.['answer'] as unknown as Answer | undefined;
     if (made) return finished(made.result, dimensions);
-    const line = lines.find((each) => each['id'] === cut['part']);
     return {...finishedPlain(dimensions), to: squareEnd(line ? lengthOf(line) : 0)};
   });
   const members = given.members.map((member, i) => ({
@@ -109,6 +117,16 @@ function assemblyOf(given: Told, lines: Row[]): Assembly {
   return {parts, members, lights: lightsOf(given), joints: jointsOf(given, {parts, members}, lines, rowsOf(given.answer.request['others']))};
 }
 
+/** A part that is not round; if it is missing, its tube from work point to work point. */
+function sectionMember(cut: Row, given: Row | undefined, line: Row | undefined): MemberPart {
+  const made = given?.['answer'] as unknown as Answer | undefined;
+  const section = made ? (made.result['section'] as Row) : {...cut, corner_radius_mm: 2 * Number(cut['wall_mm'])};
+  const points = ['start', 'finish'].map((side) => made && ((made.result['ends'] as Row)[side] as Row)['points']) as [Row?, Row?];
+  const ends = points.map((each, i) => (each ? endOf(section, each) : squareShell(section, i && line ? lengthOf(line) : 0))) as [ShellEnd, ShellEnd];
+  const girth = girthOf(section);
+  return shellOf(ends, {outer: girth, inner: girth});
+}
+
 /** Returns the joints: where branches end on their partners, or pass through them. */
 function jointsOf(given: Told, {parts, members}: Pick<Assembly, 'parts' | 'members'>, lines: Row[], others: Row[]): Assembly['joints'] {
   const places = new Map(members.map(({name}, i) => [name, i]));
@@ -117,8 +135,7 @@ function jointsOf(given: Told, {parts, members}: Pick<Assembly, 'parts' | 'membe
     const other = others.find((each) => each['id'] === joint['chord']);
     if (branch === undefined || (chord === undefined && !other)) return [];
     const {frame: own, part: at} = members[branch] as Assembly['members'][number];
-    const {from, to: end} = parts[at] as HoledTube;
-    const ends = [from, end].map(({zOuter}) => placed(own, [0, 0, bounds(zOuter).reduce((a, b) => a + b) / 2])) as [Vector, Vector];
+    const ends = heightsOf(parts[at] as MemberPart).map((z) => placed(own, [0, 0, bounds(z).reduce((a, b) => a + b) / 2])) as [Vector, Vector];
     const [origin, along, flat] =
       chord === undefined ? [...placeOf(other as Row), (other as Row)['kind'] === 'plane'] : [...axisOf(lines[chord] as Row), false];
     const off = (p: Vector) => distance(p, origin, along, flat);
@@ -153,12 +170,12 @@ const finishedPlain = ({outer, wall}: {outer: number; wall: number}) => ({outer:
 const lineOf = (row: Row): [Vector, Vector] => [vector(row['start_mm']), vector(row['end_mm'])];
 const lengthOf = (row: Row) => Math.hypot(...add(...(lineOf(row).reverse() as [Vector, Vector]), -1));
 
-/** Any frame with z along a centre-line. */
+/** A frame with z along a centre-line, and x on the side of its `up`, if it has one. */
 function along(row: Row): Frame {
   const [start, end] = lineOf(row);
   const z = unitVector(add(end, start, -1));
   const least = z.map(Math.abs).indexOf(Math.min(...z.map(Math.abs)));
-  const axis = [0, 1, 2].map((k) => (k === least ? 1 : 0)) as Vector;
+  const axis = row['up'] ? vector(row['up']) : ([0, 1, 2].map((k) => (k === least ? 1 : 0)) as Vector);
   const x = unitVector(add(axis, z, -dot(axis, z)));
   return {origin: start, x, y: [z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]], z};
 }

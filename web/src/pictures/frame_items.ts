@@ -34,8 +34,12 @@ export function told(answer: Answer): Told {
   return {answer, members, joints: rowsOf(result['joints']), cuts, parts: answer.parts ?? [], part, standing};
 }
 
-/** "48.3 × 3.2" */
-export const size = (row: Row) => [row['outer_diameter_mm'], row['wall_mm']].map((value) => text('wall_mm', value)).join(' × ');
+/** "48.3 × 3.2", "60 × 40 × 3" */
+export const size = (row: Row) =>
+  ['outer_diameter_mm', 'height_mm', 'width_mm', 'wall_mm']
+    .filter((key) => key in row)
+    .map((key) => text('wall_mm', row[key]))
+    .join(' × ');
 
 /** Returns members, joints and different parts, each with its facts. */
 export function itemsOf(given: Told): Inspected['lists'] {

@@ -1,12 +1,14 @@
 import {isRow, rowsOf, type Json, type Row} from '../json';
 import {usualCut} from '../onward';
-import {column, type Assembly, type EndCurve, type Facts, type Frame, type HoledTube, type Item, type Picture, type Vector} from '../picture';
+import {column, type Assembly, type EndCurve, type Facts, type Frame, heightsOf, type Item, type MemberPart, type Picture, type Vector} from '../picture';
 import type {Answer} from '../service';
 import {choice, sentence, term} from '../words';
 import {atPhi} from './cut';
 import {figures, plural, text} from './facts';
+import {size} from './frame_items';
 import type {Context} from './context';
 import {add, bounds, dot, frame, onTube, placed, radians, squareEnd, tube, vector, type Sizes} from './geometry';
+import {edgeOf, girthOf, shellOf, squareShell, type ShellEnd} from './section_solid';
 
 const link = 'node';
 
@@ -24,8 +26,7 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
   const said = [plural(members.length, 'member'), `${plural(cut.length, 'end')} cut`, plural(free, 'free end')].join(', ');
   const assembly = assemblyOf(members, ends, context.sizes);
   const corners = assembly.members.flatMap(({part, frame: to}) => {
-    const {from, to: end} = assembly.parts[part] as HoledTube;
-    return bounds([...from.zOuter, ...end.zOuter]).map((z) => placed(to, [0, 0, z]));
+    return bounds(heightsOf(assembly.parts[part] as MemberPart).flat()).map((z) => placed(to, [0, 0, z]));
   });
   const box = [0, 1, 2].map((k) => bounds(corners.map((p) => p[k] as number)));
   return {
@@ -80,21 +81,25 @@ const endOf = (ends: Row[], id: Json | undefined, side: string) => ends.find((en
 
 function item(request: Row, members: Row[], ends: Row[], i: number, sizes: Sizes): Item {
   const member = members[i] as Row;
-  const {outer, wall} = tube(member, sizes);
   const id = String(member['id']);
-  const own = ['start', 'finish'].map((side) => endOf(ends, id, side));
+  const own = ['start', 'finish'].map((side) => endOf(ends, id, side)) as [Row, Row];
+  const section = own[0]['section'];
+  const round = tube(member, sizes);
+  const dimensions: Row = isRow(section)
+    ? {height_mm: section['height_mm'] as Json, width_mm: section['width_mm'] as Json, wall_mm: section['wall_mm'] as Json}
+    : {outer_diameter_mm: round.outer, wall_mm: round.wall};
   const cutters = own.flatMap((end) => rowsOf(end['cut_by']).map((by) => String(by['member'])));
   const facts = (): Facts => ({
     said: own.map((end) => {
       const by = rowsOf(end['cut_by']).map((each) => String(each['member']));
       return `${sentence(choice(end['end']))}: ${by.length ? `cut by ${by.join(', ')}` : 'free'}.`;
     }),
-    figures: figures({outer_diameter_mm: outer, wall_mm: wall, length_mm: lengthOf(member)}, ['outer_diameter_mm', 'wall_mm', 'length_mm']),
+    figures: figures({...dimensions, length_mm: lengthOf(member)}, [...Object.keys(dimensions), 'length_mm']),
     warnings: [],
     leads: [...new Set(cutters)].map((name) => ({name, to: members.findIndex((each) => each['id'] === name)})).filter(({to}) => to >= 0),
     opens: {name: 'Go on to its part', endpoint: 'parts', body: partOf(request, id)},
   });
-  return {name: id, detail: [outer, wall].map((value) => text('wall_mm', value)).join(' × '), mark: {text: '', tone: tone(i)}, facts};
+  return {name: id, detail: size(dimensions), mark: {text: '', tone: tone(i)}, facts};
 }
 
 /** The part of a member, cut as the node's tables are, or as usual. */
@@ -106,20 +111,22 @@ function partOf(request: Row, member: string): Row {
 
 /** Returns every member from end to end; if it extends far beyond the node, only the near part. */
 function assemblyOf(members: Row[], ends: Row[], sizes: Sizes): Assembly {
-  const widest = Math.max(...members.map((member) => tube(member, sizes).outer));
+  const widest = Math.max(...members.map((member) => widthOf(endOf(ends, member['id'], 'start')['section'], member, sizes)));
   const joints = ends.filter((end) => rowsOf(end['cut_by']).length).map((end) => vector((end['frame'] as Row)['origin_mm']));
-  const parts = members.map((member): HoledTube => {
+  const parts = members.map((member): MemberPart => {
     const {outer, wall} = tube(member, sizes);
     const [start, finish] = ['start', 'finish'].map((side) => endOf(ends, member['id'], side)) as [Row, Row];
     const to = frame(start['frame']) as Frame;
     const along = joints.map((point) => dot(add(point, to.origin, -1), to.z));
     const [low, high] = joints.length ? bounds(along) : [-Infinity, Infinity];
+    const [least, most] = [Math.max(0, low - 2.2 * widest), Math.min(lengthOf(member), high + 2.2 * widest)];
+    if (isRow(start['section'])) return shellBetween(start, finish, to, start['section'], [least, most]);
     const radii: [number, number] = [outer / 2, outer / 2 - wall];
     return {
       outer: radii[0],
       inner: radii[1],
-      from: curveOf(start) ?? squareEnd(Math.max(0, low - 2.2 * widest)),
-      to: seen(finish, to, radii) ?? squareEnd(Math.min(lengthOf(member), high + 2.2 * widest)),
+      from: curveOf(start) ?? squareEnd(least),
+      to: seen(finish, to, radii) ?? squareEnd(most),
       holes: [],
     };
   });
@@ -133,6 +140,43 @@ function assemblyOf(members: Row[], ends: Row[], sizes: Sizes): Assembly {
     })),
     lights: members.map((_, i) => [i]),
   };
+}
+
+const widthOf = (section: Json | undefined, member: Row, sizes: Sizes) =>
+  isRow(section) ? Math.hypot(Number(section['height_mm']), Number(section['width_mm'])) : tube(member, sizes).outer;
+
+/** A member that is not round, in the frame of its start; an end without curves is cut square. */
+function shellBetween(start: Row, finish: Row, to: Frame, section: Row, [low, high]: [number, number]): MemberPart {
+  const wall = Number(section['wall_mm']);
+  const bore = {
+    height_mm: Number(section['height_mm']) - 2 * wall,
+    width_mm: Number(section['width_mm']) - 2 * wall,
+    corner_radius_mm: Number(section['inner_corner_radius_mm']),
+  };
+  const whole = {outer: girthOf(section), inner: girthOf(bore)};
+  const from = shellEnd(start) ?? squareShell(section, low, bore);
+  return shellOf([from, turnedRound(shellEnd(finish), whole, frame(finish['frame']) as Frame, to) ?? squareShell(section, high, bore)], whole);
+}
+
+function shellEnd(end: Row): ShellEnd | undefined {
+  const [outer, inner] = ['outer', 'inner'].map((surface) => {
+    const points = rowsOf(end['profiles']).find((each) => each['surface'] === surface)?.['points'] as Row | undefined;
+    return points && {girth: column(points['girth_mm']), at: edgeOf(points)};
+  });
+  return outer && inner && {outer, inner};
+}
+
+/** A finish, which is seen from its own end, in the frame of the start: its way round runs against it. */
+function turnedRound(end: ShellEnd | undefined, whole: {outer: number; inner: number}, own: Frame, to: Frame): ShellEnd | undefined {
+  if (!end) return undefined;
+  const turned = ({girth, at}: ShellEnd['outer'], all: number) => {
+    const points = at.map((p) => add(placed(own, p), to.origin, -1)).map((p): Vector => [dot(p, to.x), dot(p, to.y), dot(p, to.z)]);
+    const order = girth.map((_, i) => i).reverse();
+    const way = (i: number) => (all - (girth[i] as number)) % all;
+    order.sort((a, b) => way(a) - way(b));
+    return {girth: order.map(way), at: order.map((i) => points[i] as Vector)};
+  };
+  return {outer: turned(end.outer, whole.outer), inner: turned(end.inner, whole.inner)};
 }
 
 function curveOf(end: Row): EndCurve | undefined {

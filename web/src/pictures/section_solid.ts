@@ -1,5 +1,5 @@
 import type {Row} from '../json';
-import {column, type Solid, type Vector} from '../picture';
+import {column, type Shell, type Solid, type Vector} from '../picture';
 import {bounds, partner, type Sizes} from './geometry';
 
 export const edgeOf = (points: Row): Vector[] => {
@@ -24,6 +24,12 @@ export function outside(section: Row, girth: number): [x: number, y: number] {
     if (rest <= flat + arc || turn > 4) return [x + r * (nx * Math.cos(angle) - ny * Math.sin(angle)), y + r * (ny * Math.cos(angle) + nx * Math.sin(angle))];
     rest -= flat + arc;
   }
+}
+
+/** The whole way round outside. */
+export function girthOf(section: Row): number {
+  const [height, width, r] = ['height_mm', 'width_mm', 'corner_radius_mm'].map((key) => Number(section[key])) as [number, number, number];
+  return 2 * (height + width) - (8 - 2 * Math.PI) * r;
 }
 
 /** The stretches of the way round where the outline is round, from the corner after face 1 on. */
@@ -82,6 +88,60 @@ export function wallBetween(whole: number, from: Curve, to: Curve): [from: Vecto
   );
   columns.sort((a, b) => a.way - b.way || a.rank - b.rank);
   return [columns.map(({a}) => a), columns.map(({b}) => b)];
+}
+
+/** One end of a member: each edge over its own way round. */
+export interface ShellEnd {
+  outer: Curve;
+  inner: Curve;
+}
+
+/** An end of a finished part, by its rows. */
+export function endOf(section: Row, points: Row): ShellEnd {
+  const girth = column(points['girth_mm']);
+  const [outer, inner] = edgesOf(section, points);
+  return {outer: {girth, at: outer}, inner: {girth, at: inner}};
+}
+
+/** An end that is cut square. `bore`: if its way round is its own. */
+export function squareShell(section: Row, z: number, bore?: Row): ShellEnd {
+  const steps = 6; // of a corner
+  const line = (of: Row): Curve => {
+    const girth = [0, ...cornersOf(of).flatMap(([from, to]) => Array.from({length: steps + 1}, (_, i) => from + ((to - from) * i) / steps))];
+    return {girth, at: girth.map((way): Vector => [...outside(of, way), z])};
+  };
+  const outer = line(section);
+  if (bore) return {outer, inner: line(bore)};
+  const [halfX, halfY, r, wall] = [
+    Number(section['height_mm']) / 2,
+    Number(section['width_mm']) / 2,
+    Number(section['corner_radius_mm']),
+    Number(section['wall_mm']),
+  ];
+  const inner = outer.at.map(([x, y]): Vector => {
+    const beyond = (at: number, half: number) => Math.max(0, Math.abs(at) - half + r) * Math.sign(at);
+    const [dx, dy] = [beyond(x, halfX), beyond(y, halfY)];
+    const off = Math.hypot(dx, dy) || 1;
+    return [x - (wall * dx) / off, y - (wall * dy) / off, z];
+  });
+  return {outer, inner: {girth: outer.girth, at: inner}};
+}
+
+/** The member between two ends, seen in one frame. `whole`: the ways round outside, and round the bore if its curves have ways of their own. */
+export function shellOf([from, to]: [ShellEnd, ShellEnd], whole: {outer: number; inner: number}): Shell {
+  const closed = ([a, b]: [Vector[], Vector[]]): [Vector[], Vector[]] => [
+    [...a, a[0] as Vector],
+    [...b, b[0] as Vector],
+  ];
+  const cut = ({outer, inner}: ShellEnd) => ({outer: outer.at, inner: outer.at.map((p) => nearest(inner.at, p))});
+  return {
+    reach: Math.max(...from.outer.at.map(([x, y]) => Math.hypot(x, y))),
+    walls: {
+      outer: closed(wallBetween(whole.outer, from.outer, to.outer)),
+      bore: closed(wallBetween(whole.inner, from.inner, to.inner)),
+    },
+    cuts: [cut(from), cut(to)],
+  };
 }
 
 /** The place on a closed line that is nearest to p, seen along the tube. */

@@ -14,8 +14,8 @@ import {
   Vector3,
 } from 'three';
 import {colour} from '../dom';
-import type {Assembly, HoledTube} from '../picture';
-import {holedTube, ink, matrix, metal, thinned} from './meshes';
+import {type Assembly, heightsOf, type MemberPart, reachOf} from '../picture';
+import {holedTube, ink, matrix, metal, shell, thinned} from './meshes';
 
 const many = 60; // members, from which each is seen so small that a few columns and its outer edges do
 const columns = {fine: 4, coarse: 15}; // degrees
@@ -39,15 +39,13 @@ export class Members extends Group {
     super();
     const {parts, members} = assembly;
     const placed = members.map(({frame}) => matrix(frame));
-    this.axes = members.map(({part}, i) => axisOf(parts[part] as HoledTube, placed[i] as Matrix4));
+    this.axes = members.map(({part}, i) => axisOf(parts[part] as MemberPart, placed[i] as Matrix4));
     const lines: number[] = [];
     const afar = members.length > many;
     parts.forEach((part, k) => {
       const of = members.flatMap((member, i) => (member.part === k ? [i] : []));
       const places = of.map((i) => placed[i] as Matrix4);
-      const made = afar
-        ? holedTube({...part, from: thinned(part.from, columns.coarse), to: thinned(part.to, columns.coarse)}, undefined, columns.coarse)
-        : holedTube(part, undefined, columns.fine);
+      const made = meshesOf(part, afar);
       for (const each of made.children) {
         if (each instanceof Mesh) this.instance(each, of, places);
         else if (each instanceof Line && (!afar || each.name === 'outer')) places.forEach((place) => trace(each, place, lines));
@@ -142,8 +140,15 @@ export class Members extends Group {
   }
 }
 
-function axisOf({outer, from, to}: HoledTube, place: Matrix4): Axis {
-  const [low, high] = [mean([...from.zOuter, ...from.zInner]), mean([...to.zOuter, ...to.zInner])];
+function meshesOf(part: MemberPart, afar: boolean): Group {
+  if ('cuts' in part) return shell(part);
+  if (!afar) return holedTube(part, undefined, columns.fine);
+  return holedTube({...part, from: thinned(part.from, columns.coarse), to: thinned(part.to, columns.coarse)}, undefined, columns.coarse);
+}
+
+function axisOf(part: MemberPart, place: Matrix4): Axis {
+  const [low, high] = heightsOf(part).map(mean) as [number, number];
+  const outer = reachOf(part);
   const at = (z: number) => new Vector3(0, 0, z).applyMatrix4(place);
   const end = Math.min(outer, (high - low) / 2);
   return {start: at(low), end: at(high), bar: [at(low + end), at(high - end)], radius: outer};

@@ -26,7 +26,7 @@ import {
   type Material,
 } from 'three';
 import {colour, partnerColour} from '../dom';
-import type {CutTube, EndCurve, Frame, Gaps, HoledTube, Partner, Ribbon, Tool, Vector} from '../picture';
+import type {CutTube, EndCurve, Frame, Gaps, HoledTube, Partner, Ribbon, Shell, Tool, Vector} from '../picture';
 
 const radians = Math.PI / 180;
 const toVector = (v: Vector) => new Vector3(...v);
@@ -406,6 +406,18 @@ function elbow(partner: Extract<Partner, {kind: 'elbow'}>, material: ShaderMater
 
 const outlineOf = (points: number[][], line: LineBasicMaterial) =>
   new Line(new BufferGeometry().setFromPoints([...points, points[0] as number[]].map((p) => new Vector3(p[0], p[1], p[2]))), line);
+
+/** A member that is not round. */
+export function shell({walls, cuts}: Shell): Group {
+  const group = new Group();
+  for (const [side, [from, to]] of Object.entries(walls)) {
+    const mesh = new Mesh(strip(from, to, true), steel(side === 'outer' ? 'steel' : 'bore'));
+    mesh.name = side;
+    group.add(mesh);
+  }
+  for (const {inner, outer} of cuts) group.add(new Mesh(strip(inner, outer, true), steel('bore')), ...rims(inner, outer));
+  return group;
+}
 
 export function ribbon(given: Ribbon, span: Span): Mesh {
   const tone = given.tone === 'bevel' ? 'bevel-mid' : given.tone;

@@ -1,0 +1,155 @@
+#include "core/joint/node/shape.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+
+namespace tubecut::joint::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kPlaces = 128;  // of an edge
+
+Vector3d axis_of(const Member& m) { return (m.finish - m.start).normalized(); }
+
+/// The distance of a point from a member's surface, and the surface's outward normal there.
+struct Off {
+  double distance;
+  Vector3d normal;
+};
+Off off(const Member& m, const Vector3d& p) {
+  if (m.section) {
+    const auto solid = box_of(m).solid();
+    return {solid.distance(p), solid.normal(p)};
+  }
+  const Vector3d axis = axis_of(m), from = p - m.start;
+  const Vector3d beside = from - from.dot(axis) * axis;
+  return {beside.norm() - m.outer_radius, beside.normalized()};
+}
+
+/// Returns the places of the outline in space, in the plane across the axis through the start.
+std::vector<Vector3d> outline(const Member& m) {
+  const Vector3d axis = axis_of(m);
+  const Vector3d x = m.section ? height_of(m) : axis.unitOrthogonal();
+  const Vector3d y = axis.cross(x);
+  std::vector<Vector3d> out;
+  if (!m.section) {
+    for (int k = 0; k < kPlaces; ++k) {
+      const auto at = elementary::sincos(kTwoPi * k / kPlaces);
+      out.emplace_back(m.start + m.outer_radius * (at.cos * x + at.sin * y));
+    }
+    return out;
+  }
+  const auto curve = m.section->outer();
+  const auto add = [&](double s) {
+    const auto at = curve.at(s).point;
+    out.emplace_back(m.start + at.x() * x + at.y() * y);
+  };
+  for (int k = 0; k < kPlaces; ++k) add(curve.girth() * k / kPlaces);
+  for (const double s : curve.seams()) add(s);
+  return out;
+}
+
+double edge_off(const Member& of, const Member& from, const Vector3d& point,
+                const Vector3d& normal) {
+  const Vector3d axis = axis_of(of);
+  const double rise = axis.dot(normal);
+  double worst = 0.0;
+  for (const auto& p : outline(of)) {
+    const auto away = off(from, p + (point - p).dot(normal) / rise * axis);
+    const double across = away.normal.cross(normal).norm();
+    worst = std::max(worst, std::abs(away.distance) / across);
+  }
+  return worst;
+}
+
+}  // namespace
+
+Vector3d height_of(const Member& member) {
+  const Vector3d axis = axis_of(member), up = member.up->normalized();
+  return (up - up.dot(axis) * axis).normalized();
+}
+
+std::optional<Cutter> cutter_of(const Member& member, const MemberFrame& frame) {
+  if (member.section) return Cutter(box_of(member, frame));
+  const auto placed =
+      place(frame.local(AxisLine{member.start, member.finish - member.start}), member.outer_radius);
+  if (!placed) return std::nullopt;
+  return Cutter(placed->tube);
+}
+
+double support(const Member& member, const Vector3d& direction) {
+  const Vector3d axis = axis_of(member);
+  if (!member.section) return member.outer_radius * direction.cross(axis).norm();
+  const auto& s = *member.section;
+  const Vector3d x = height_of(member), y = axis.cross(x);
+  const double along = std::abs(direction.dot(x)), across = std::abs(direction.dot(y));
+  return along * (0.5 * s.height - s.corner) + across * (0.5 * s.width - s.corner) +
+         s.corner * elementary::hypot(along, across);
+}
+
+double distance_from(const Member& member, const Vector3d& point) {
+  if (member.section) return box_of(member).solid().distance(point);
+  return (point - member.start).cross(axis_of(member)).norm() - member.outer_radius;
+}
+
+bool same_outline(const Member& a, const Member& b) {
+  if (!a.section && !b.section) return a.outer_radius == b.outer_radius;
+  if (!a.section || !b.section) return false;
+  const auto &p = *a.section, &q = *b.section;
+  if (p.corner != q.corner) return false;
+  const Vector3d axis = axis_of(a), x = height_of(a), other = height_of(b);
+  const Vector3d seen = (other - other.dot(axis) * axis).normalized();
+  const bool upright = x.cross(seen).norm() <= kSameTurn;
+  const bool crosswise = std::abs(x.dot(seen)) <= kSameTurn;
+  return (upright && p.height == q.height && p.width == q.width) ||
+         (crosswise && p.height == q.width && p.width == q.height);
+}
+
+double size_step(const Member& a, const Member& b) {
+  if (!a.section && !b.section) return std::abs(a.outer_radius - b.outer_radius);
+  const auto side = [](const Member& m, double section::Section::*of) {
+    return m.section ? 0.5 * (*m.section).*of : m.outer_radius;
+  };
+  using section::Section;
+  return std::max(std::abs(side(a, &Section::height) - side(b, &Section::height)),
+                  std::abs(side(a, &Section::width) - side(b, &Section::width)));
+}
+
+bool is_square_to(const Member& member, const Vector3d& direction) {
+  if (!member.section) return true;
+  const Vector3d x = height_of(member), d = direction.normalized();
+  return x.cross(d).norm() <= kSameTurn || std::abs(x.dot(d)) <= kSameTurn;
+}
+
+double edge_step(const Member& a, const Member& b, const Vector3d& point, const Vector3d& normal) {
+  return std::max(edge_off(a, b, point, normal), edge_off(b, a, point, normal));
+}
+
+}  // namespace tubecut::joint::detail
+
+namespace tubecut::joint {
+
+RectangularTubeCutter box_of(const Member& member) {
+  const auto& s = *member.section;
+  return {.width = s.width,
+          .height = s.height,
+          // By rounding, a flat oval's may be larger.
+          .corner = std::min(s.corner, 0.5 * std::min(s.height, s.width)),
+          .point = member.start,
+          .direction = member.finish - member.start,
+          .up = detail::height_of(member)};
+}
+
+RectangularTubeCutter box_of(const Member& member, const MemberFrame& frame) {
+  auto out = box_of(member);
+  out.point = frame.local(out.point);
+  out.direction = frame.rows * out.direction;
+  out.up = frame.rows * out.up;
+  return out;
+}
+
+}  // namespace tubecut::joint

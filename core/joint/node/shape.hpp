@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/joint/node/node.hpp"
+
+namespace tubecut::joint {
+
+/// Returns the surface of a member that is not round as a cutter in the world, or in a frame.
+[[nodiscard]] RectangularTubeCutter box_of(const Member& member);
+[[nodiscard]] RectangularTubeCutter box_of(const Member& member, const MemberFrame& frame);
+
+}  // namespace tubecut::joint
+
+/// For `solve` and `verify`: members in space, whether round or not.
+namespace tubecut::joint::detail {
+
+/// Sections that are turned against each other about their axis by at most this count as one: at
+/// 150 mm from the axis their surfaces are 0.15 mm from each other. rad.
+inline constexpr double kSameTurn = 1e-3;
+
+/// Returns the direction of a section's height: `up` made perpendicular to the axis; unit.
+[[nodiscard]] Eigen::Vector3d height_of(const Member& member);
+
+/// Returns the member's surface in that frame; empty if it runs along the frame's z.
+[[nodiscard]] std::optional<Cutter> cutter_of(const Member& member, const MemberFrame& frame);
+
+/// Returns how far the surface reaches from the axis in the direction of a vector, times its
+/// length; only what of it lies across the axis counts.
+[[nodiscard]] double support(const Member& member, const Eigen::Vector3d& direction);
+/// Returns the signed distance of a point from the endless surface, negative inside.
+[[nodiscard]] double distance_from(const Member& member, const Eigen::Vector3d& point);
+
+/// Returns true if both have one outline, so that either continues the surface of the other: of
+/// sections equal in size and orientation. A round tube and a section never have.
+[[nodiscard]] bool same_outline(const Member& a, const Member& b);
+/// Returns the largest distance of two outlines about one axis that are flush on one side: the
+/// difference of their radii, or half that of their sides.
+[[nodiscard]] double size_step(const Member& a, const Member& b);
+
+/// Returns true if a direction across the axis is one of the section's two axes of symmetry, so
+/// that the surface is square to it where it reaches furthest; always of a round tube.
+[[nodiscard]] bool is_square_to(const Member& member, const Eigen::Vector3d& direction);
+
+/// Returns the largest distance between the edges along which a plane cuts two surfaces, of which
+/// one at least is a section, in that plane. `normal` is unit.
+/// Accuracy  from 128 places of each edge, by the distance from the other surface: of first order
+///           where an edge lies opposite a corner.
+[[nodiscard]] double edge_step(const Member& a, const Member& b, const Eigen::Vector3d& point,
+                               const Eigen::Vector3d& normal);
+
+}  // namespace tubecut::joint::detail
