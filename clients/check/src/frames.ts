@@ -2,7 +2,7 @@
 import {axisOfMember, byId, endOf, mitrePlane} from './nodes.js';
 import {checkPart} from './parts.js';
 import {Scope} from './report.js';
-import {type Body, plane, type Solid, sizeOf, solid, tube} from './solids.js';
+import {type Body, boxOf, girthOf, isSection, onOutline, plane, sectionOf, type Solid, sizeOf, solid, tube} from './solids.js';
 import {add, type Frame, lineDistance, mul, norm, onTube, RAD, skew, sub, toWorld, type V3} from './space.js';
 import type {Knowledge} from './tables.js';
 
@@ -17,7 +17,9 @@ export function checkFrame(scope: Scope, answer: Body, know: Knowledge): void {
     if (!part.answer) continue;
     const inner = part.answer as Body;
     made.set(String(part.part), inner);
-    checkPart(new Scope(scope.report, '/parts/*/answer/result', `${part.part}: `), inner.request as Body, inner.result as Body, know);
+    const own = new Scope(scope.report, '/parts/*/answer/result', `${part.part}: `);
+    if ((inner.result as Body).section) own.not('', 'of tubes that are not round only the joints in the world are looked at');
+    else checkPart(own, inner.request as Body, inner.result as Body, know);
   }
   checkCutList(scope, request, result, made, know);
   const pieces = new Set(list(result.merged).flatMap((row) => [row.id, ...((row.members ?? []) as string[])]));
@@ -43,8 +45,10 @@ function checkCutList(scope: Scope, request: Body, result: Body, made: Map<strin
     all += n;
     scope.same('cut_list_count', n, ids.length, 0, '', where);
     const own = members.find(({id}) => id === row.part);
-    const size = own && sizeOf(own, know.sizes);
-    if (size) for (const name of ['outer_diameter_mm', 'wall_mm'] as const) scope.same('cut_list_size', row[name] as number, size[name], 1e-9, 'mm', where);
+    const section = own && isSection(own) ? sectionOf(own, know.sections) : undefined;
+    const size = own && ((section ?? sizeOf(own, know.sizes)) as unknown as Numbers);
+    for (const name of ['outer_diameter_mm', 'height_mm', 'width_mm', 'wall_mm'])
+      if (size && (name in size || name in row)) scope.same('cut_list_size', row[name] as number, size[name] ?? Number.NaN, 1e-9, 'mm', where);
     scope.most('cut_list_alike', row.differs_at_most_mm as number, n > 1 ? alike(request) : 0, 'mm', where);
     const part = made.get(where);
     if (!part) continue;
@@ -53,7 +57,8 @@ function checkCutList(scope: Scope, request: Body, result: Body, made: Map<strin
     blank += n * (row.blank_mm as number);
     mass += n * (row.mass_kg as number);
     for (const name of ['long_mm', 'blank_mm', 'weld_mm', 'mass_kg']) scope.same('cut_list', row[name] as number, lengths[name], 1e-10, '', `${where} ${name}`);
-    scope.same('cut_list', row.girth_mm as number, Math.PI * (row.outer_diameter_mm as number), 1e-10 * (1 + (row.girth_mm as number)), 'mm', where);
+    const girth = section ? girthOf(section) : Math.PI * (row.outer_diameter_mm as number);
+    scope.same('cut_list', row.girth_mm as number, girth, 1e-10 * (1 + (row.girth_mm as number)), 'mm', where);
   }
   for (const [name, own] of [
     ['members', all],
@@ -65,7 +70,11 @@ function checkCutList(scope: Scope, request: Body, result: Body, made: Map<strin
     scope.same('totals', totals[name], own, 1e-11 * own, '', name);
     scope.covers(`totals/${name}`);
   }
-  scope.covers(...['count', 'outer_diameter_mm', 'wall_mm', 'long_mm', 'blank_mm', 'girth_mm', 'weld_mm', 'mass_kg'].map((name) => `cut_list/*/${name}`));
+  scope.covers(
+    ...['count', 'outer_diameter_mm', 'height_mm', 'width_mm', 'wall_mm', 'long_mm', 'blank_mm', 'girth_mm', 'weld_mm', 'mass_kg'].map(
+      (name) => `cut_list/*/${name}`,
+    ),
+  );
 }
 
 const frameOf = (member: Body): Frame | undefined => {
@@ -123,12 +132,21 @@ function checkStated(scope: Scope, joint: Body, members: Body[], made: Map<strin
 }
 
 /** Edges of a part's end in the world. */
-function edges(member: Body, made: Map<string, Body>, side: string): V3[] {
+function edges(member: Body, made: Map<string, Body>, side: string, know: Knowledge): V3[] {
   const frame = frameOf(member);
   const part = made.get(String(member.part));
   if (!frame || !part) return [];
-  const {outer_diameter_mm: D, wall_mm: t} = (part.request as Body).target as Numbers;
   const points = (((part.result as Body).ends as Body)[side] as Body).points as unknown as {[name: string]: number[]};
+  const target = (part.request as Body).target as Body;
+  if (isSection(target)) {
+    const section = sectionOf(target, know.sections);
+    return points.girth_mm.flatMap((girth, i) => {
+      const [x, y] = onOutline(section, girth);
+      const [nu, t] = [points.normal_deg[i] * RAD, points.wall_mm[i]];
+      return [toWorld(frame, [x - t * Math.cos(nu), y - t * Math.sin(nu), points.z_inner_mm[i]]), toWorld(frame, [x, y, points.z_outer_mm[i]])];
+    });
+  }
+  const {outer_diameter_mm: D, wall_mm: t} = target as unknown as Numbers;
   const R = (D ?? 0) / 2;
   return points.phi_deg.flatMap((deg, i) => [
     toWorld(frame, onTube(R - (t ?? 0), deg * RAD, points.z_inner_mm[i])),
@@ -143,7 +161,7 @@ function checkJoint(scope: Scope, request: Body, joint: Body, members: Body[], m
   const place = members.find(({id}) => id === branch);
   const own = list(request.members).find(({id}) => id === branch);
   if (pieces.has(branch) || pieces.has(chord) || !place || !own || !frameOf(place) || !made.get(String(place.part))) return;
-  if (!('outer_diameter_mm' in ((made.get(String(place.part)) as Body).request as {target: Body}).target)) {
+  if (!['outer_diameter_mm', 'kind', 'size'].some((name) => name in ((made.get(String(place.part)) as Body).request as {target: Body}).target)) {
     scope.not('joints', 'the part is of a named size');
     return;
   }
@@ -157,7 +175,7 @@ function checkJoint(scope: Scope, request: Body, joint: Body, members: Body[], m
     const part = (made.get(String(place.part)) as Body).result as Body;
     const found = ['start', 'finish'].map((side, i) => {
       const surface = surfaces[Math.min(i, surfaces.length - 1)];
-      const least = Math.min(...edges(place, made, side).map((p) => surface.distance(p)));
+      const least = Math.min(...edges(place, made, side, know).map((p) => surface.distance(p)));
       const others = (((part.ends as Body)[side] as Body).cutter_ids as string[]).length !== 1; // that may keep the end off this chord
       return {least, others};
     });
@@ -173,7 +191,8 @@ const tolerance = (request: Body): number => ((request.sampling as Numbers | und
 /** The surface that the branch's end lies on. */
 function seat(joint: Body, body: Body, gap: number, middle: V3, know: Knowledge): Solid {
   if (body.kind === 'plane') return facing(solid(body, 0, know.sizes), middle, gap);
-  if (body.kind) return solid(body, gap, know.sizes);
+  if ('start_mm' in body && isSection(body)) return boxOf(body, sectionOf(body, know.sections), gap);
+  if (body.kind && body.kind !== 'round') return solid(body, gap, know.sizes);
   const {outer_diameter_mm, wall_mm} = sizeOf(body, know.sizes);
   const [point, along] = axisOfMember(body);
   return tube(String(body.id), point, along, outer_diameter_mm / 2 + (joint.kind === 'set_in' ? -((joint.depth_mm as number | undefined) ?? wall_mm) : gap));

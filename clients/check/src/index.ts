@@ -11,7 +11,7 @@ import {checkPart} from './parts.js';
 import {checkProfile} from './profiles.js';
 import {type Check, Report, Scope} from './report.js';
 import {checkReplay, checkSchedule} from './schedules.js';
-import type {Body, Size} from './solids.js';
+import {type Body, isSection, type Section, type Size} from './solids.js';
 import {checkEnd, cutOf, type Knowledge, machineOf} from './tables.js';
 
 export type {Check} from './report.js';
@@ -35,6 +35,7 @@ export function certify(answer: string, request?: string, names: Names = {}): Ce
   const report = new Report();
   const know: Knowledge = {
     sizes: new Map(listOf(names.tubes, 'tubes').map((row) => [String(row.size), row as unknown as Size])),
+    sections: new Map(listOf(names.tubes, 'rectangular_tubes').map((row) => [String(row.size), row as unknown as Section])),
     machines: new Map(listOf(names.machines, 'machines').map((row) => [String(row.name), row.machine as Body])),
   };
   checkHashes(new Scope(report, ''), answer);
@@ -55,11 +56,17 @@ function guarded(scope: Scope, endpoint: string, check: () => void): void {
   }
 }
 
+/** The body that is cut, given by itself or as a member. */
+function targetOf(request: Body): Body {
+  const node = (request.node ?? request) as Body;
+  const member = ((node.members ?? []) as Body[]).find(({id}) => id === node.member);
+  return (request.target ?? member ?? {}) as Body;
+}
+
 function checkResult(scope: Scope, endpoint: string, answer: Body, know: Knowledge): void {
   const [request, result] = [answer.request as Body, answer.result as Body];
   const ids = (result.cutter_ids ?? []) as string[];
-  const {kind = 'round', size = ''} = (request.target ?? {}) as {kind?: string; size?: string};
-  if (kind !== 'round' || /^(?!NPS |CHS )./.test(size)) {
+  if (isSection(targetOf(request))) {
     scope.not('', 'targets that are not round are not covered');
     return;
   }

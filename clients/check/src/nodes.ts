@@ -1,7 +1,7 @@
 /** Members by centre-lines: frames of their ends, and who cuts them (docs/theory/intersections-and-bevels.md, section 1.1 and 1.3). */
 import type {Cut} from './bevel.js';
 import type {Scope} from './report.js';
-import {axisOf, type Body, plane, type Size, type Solid, sizeOf, tube} from './solids.js';
+import {axisOf, type Body, boxOf, isSection, plane, sectionOf, type Solid, sizeOf, tube} from './solids.js';
 import {add, across, cross, directionIn, dot, type Frame, inFrame, lineDistance, mul, norm, RAD, skew, sub, unit, type V3} from './space.js';
 import {checkProfile} from './profiles.js';
 import {checkEnd, cutBy, type Knowledge} from './tables.js';
@@ -48,14 +48,18 @@ export function mitrePlane(a: [V3, V3], b: [V3, V3]): [V3, V3] {
 }
 
 /** The member as a partner in the frame, by its joint with the target. */
-export function partnerBy(member: Body, target: [V3, V3], joint: Statement, grown: number, frame: Frame, sizes: ReadonlyMap<string, Size>): Solid {
+export function partnerBy(member: Body, target: [V3, V3], joint: Statement, grown: number, frame: Frame, know: Knowledge): Solid {
   const id = String(member.id);
   if (joint.kind === 'mitre') {
     const near = norm(sub(v3(member.start_mm), target[0])) <= norm(sub(v3(member.end_mm), target[0])) ? 'start' : 'finish';
     const [point, normal] = mitrePlane(target, endOf(member, near));
     return plane(id, inFrame(frame, point), directionIn(frame, normal), joint.gap_mm / 2 + grown);
   }
-  const {outer_diameter_mm, wall_mm} = sizeOf(member, sizes);
+  if (isSection(member)) {
+    const section = sectionOf(member, know.sections);
+    return boxOf(member, section, joint.kind === 'set_in' ? -(joint.depth_mm ?? section.wall_mm) : joint.gap_mm + grown, frame);
+  }
+  const {outer_diameter_mm, wall_mm} = sizeOf(member, know.sizes);
   const radius = outer_diameter_mm / 2 + (joint.kind === 'set_in' ? -(joint.depth_mm ?? wall_mm) : joint.gap_mm + grown);
   const [point, along] = axisOfMember(member);
   return tube(id, inFrame(frame, point), directionIn(frame, along), radius);
@@ -88,7 +92,7 @@ export function cutInFrame(request: Body, members: Body[], target: Body, end: st
   const grown = ((request.coating_mm as number | undefined) ?? 0) + ((request.root_gap_mm as number | undefined) ?? 0);
   const solids = ids.map((id) => {
     const member = byId(members, id);
-    return partnerBy(member, own, stated(target, member) ?? found(own, member), grown, frame, know.sizes);
+    return partnerBy(member, own, stated(target, member) ?? found(own, member), grown, frame, know);
   });
   const {outer_diameter_mm, wall_mm} = sizeOf(target, know.sizes);
   return cutBy(request, outer_diameter_mm / 2, wall_mm, solids);
@@ -134,15 +138,19 @@ export function checkNodes(scope: Scope, request: Body, result: Body, know: Know
       ends.covers('cut_by/*/gap_mm', 'cut_by/*/joint/gap_mm');
       if (by.placement) checkPlacement(ends, by, axis, frame, own, where);
       else checkMitre(ends, by, other, own, frame, where);
-      return partnerBy(other, own, joint, 0, frame, know.sizes);
+      return partnerBy(other, own, joint, 0, frame, know);
     });
+    if (isSection(target)) {
+      ends.not('', 'members that are not round are looked at as partners only');
+      continue;
+    }
     const {outer_diameter_mm, wall_mm} = sizeOf(target, know.sizes);
     for (const profile of made.profiles as Body[]) {
       checkProfile(ends.under('profiles/*'), cutBy(options, outer_diameter_mm / 2, wall_mm, partners), profile);
     }
     const grown = ((options.coating_mm as number | undefined) ?? 0) + ((options.root_gap_mm as number | undefined) ?? 0);
     if (made.table) {
-      const solids = (made.cut_by as Body[]).map((by) => partnerBy(byId(members, by.member), own, by.joint as unknown as Statement, grown, frame, know.sizes));
+      const solids = (made.cut_by as Body[]).map((by) => partnerBy(byId(members, by.member), own, by.joint as unknown as Statement, grown, frame, know));
       checkEnd(ends.under('table'), cutBy(options, outer_diameter_mm / 2, wall_mm, solids), made.table as Body, know);
     }
   }

@@ -83,7 +83,7 @@ function cutOfEnd(request: Body, made: Body, side: Side, frame: Frame, know: Kno
     const into = ((made.cutter_ids ?? []) as string[]).flatMap((id, i) => (stated(target, byId(members, id))?.kind === 'set_in' ? [i] : []));
     const ids = (made.cutter_ids ?? []) as string[];
     const bare = ids.map((id) =>
-      partnerBy(byId(members, id), endOf(target, side), {kind: 'set_on', gap_mm: 0}, 0, side === 'start' ? frame : turned(frame), know.sizes),
+      partnerBy(byId(members, id), endOf(target, side), {kind: 'set_on', gap_mm: 0}, 0, side === 'start' ? frame : turned(frame), know),
     );
     return {...cut, metal: bare.map((body, i) => (cut.partners[i]?.rate === undefined ? cut.partners[i] : body)), setIn: new Set(into)};
   }

@@ -32,6 +32,65 @@ export function sizeOf(body: Body, sizes: ReadonlyMap<string, Size>): Size {
   throw new Error(`unknown size ${body.size}: give the answer of GET /v1/tubes`);
 }
 
+/** A section that is not round. */
+export interface Section {
+  height_mm: number;
+  width_mm: number;
+  wall_mm: number;
+  corner_radius_mm: number;
+}
+export const isSection = (body: Body): boolean => (body.kind ?? 'round') !== 'round' || /^(?!NPS |CHS )./.test(String(body.size ?? ''));
+
+/** Outside, by the wall, as the standards calculate; names of sizes end in their standard. */
+const corners: {[standard: string]: (wall: number) => number} = {
+  en_10210: (t) => 1.5 * t,
+  en_10219: (t) => (t <= 6 ? 2 : t <= 10 ? 2.5 : 3) * t,
+  astm_a500: (t) => 2 * t,
+};
+
+/** The section of a target or member that is not round. */
+export function sectionOf(body: Body, sections: ReadonlyMap<string, Section>): Section {
+  if (typeof body.size === 'string') {
+    const known = sections.get(body.size);
+    if (known) return known;
+    const named = /^[RS]HS ([0-9.]+)x([0-9.]+)x([0-9.]+) EN (10210|10219)$/.exec(body.size);
+    if (!named) throw new Error(`unknown size ${body.size}: give the answer of GET /v1/tubes`);
+    const [height_mm, width_mm, wall_mm] = named.slice(1, 4).map(Number) as [number, number, number];
+    return {height_mm, width_mm, wall_mm, corner_radius_mm: corners[`en_${named[4]}`](wall_mm)};
+  }
+  const [height_mm, width_mm, wall_mm] = [num(body.height_mm), num(body.width_mm), num(body.wall_mm)];
+  const round = body.kind === 'flat_oval_tube' ? Math.min(height_mm, width_mm) / 2 : num(body.corner_radius_mm);
+  return {height_mm, width_mm, wall_mm, corner_radius_mm: typeof body.corners === 'string' ? corners[body.corners](wall_mm) : round};
+}
+
+export const girthOf = (s: Section): number => 2 * (s.height_mm + s.width_mm) - (8 - 2 * Math.PI) * s.corner_radius_mm;
+
+/** The place outside at a way round from the middle of face 1, which lies at +x. */
+export function onOutline({height_mm, width_mm, corner_radius_mm: r}: Section, girth: number): [number, number] {
+  const arc = (Math.PI / 2) * r;
+  let rest = girth + width_mm / 2 - r;
+  for (let face = 0; ; face += 1) {
+    const [away, flat] = face % 2 ? [width_mm / 2, height_mm - 2 * r] : [height_mm / 2, width_mm - 2 * r];
+    const turn = (face * Math.PI) / 2;
+    const angle = r > 0 ? Math.min(Math.max(rest - flat, 0) / r, Math.PI / 2) : 0;
+    if (rest <= flat + arc || face > 4) {
+      const [out, along] = [away - r + r * Math.cos(angle), Math.min(rest, flat) - flat / 2 + r * Math.sin(angle)];
+      return [out * Math.cos(turn) - along * Math.sin(turn), out * Math.sin(turn) + along * Math.cos(turn)];
+    }
+    rest -= flat + arc;
+  }
+}
+
+/** A member that is not round as a partner: its height lies along its `up`. */
+export function boxOf(member: Body, section: Section, grown: number, frame?: Frame): Solid {
+  const [from, to] = [v3(member.start_mm), v3(member.end_mm)];
+  const turn = (d: V3) => (frame ? directionIn(frame, d) : d);
+  const d = unit(sub(to, from));
+  const v = unit(across(v3(member.up), d));
+  const half = [section.width_mm / 2 + grown, section.height_mm / 2 + grown, Math.max(0, section.corner_radius_mm + grown)] as const;
+  return box(String(member.id), frame ? inFrame(frame, from) : from, turn(cross(v, d)), turn(v), ...half);
+}
+
 /** The axis of a partner that is given by angles or by its own line: a point and a unit direction. */
 export function axisOf(body: Body): [V3, V3] {
   const axis = body.axis as Body | undefined;

@@ -14,10 +14,11 @@ import {
   type TorchLine,
 } from './wall.js';
 import type {Scope} from './report.js';
-import {type Body, type Size, type Solid, sizeOf, solid} from './solids.js';
+import {type Body, type Section, type Size, type Solid, sizeOf, solid} from './solids.js';
 
 export interface Knowledge {
   sizes: ReadonlyMap<string, Size>;
+  sections: ReadonlyMap<string, Section>;
   machines: ReadonlyMap<string, Body>;
 }
 
