@@ -107,7 +107,7 @@ std::string print(const PartRequest& spec, const Parts::Out& out, const Caption&
   named.finish_partners = of("finish", spec.finish_ids, count(true));
   if (!out.of_section) return Print(spec.part, out, named);
   if constexpr (std::is_null_pointer_v<decltype(PrintSection)>)
-    throw no_format_of_section("csv, svg, pdf, dxf and nc1");
+    throw no_format_of_section("csv, svg, pdf, dxf, nc1 and step");
   else
     return PrintSection(spec.of_section, *out.of_section, named);
 }
@@ -241,7 +241,7 @@ const std::vector<Format<Parts::Spec, Parts::Out>>& Parts::formats() {
        {"work_order", "template"},
        {"mirror", "paper"}},
       {"dxf", "image/vnd.dxf", &print<part_dxf, section_part_dxf>, {"template", "tube"}},
-      {"step", "model/step", &print<part_step>, {"smooth", "straight"}},
+      {"step", "model/step", &print<part_step, section_part_step>, {"smooth", "straight"}},
       {"nc1", "application/x-dstv", &print<part_dstv, section_part_dstv>, {}, {}, false, true},
       {"gcode", "text/x-gcode", &print<part_gcode>, {}, gcode_options(), true, true}};
   return kFormats;

@@ -17,6 +17,9 @@ namespace tubecut::api {
                                            const part::SectionPart& part, const Caption& caption);
 [[nodiscard]] std::string section_part_dxf(const part::SectionPartSpec& spec,
                                            const part::SectionPart& part, const Caption& caption);
+/// The finished part as a solid: see step/section_solid.hpp. Both views are the answer's own lines.
+[[nodiscard]] std::string section_part_step(const part::SectionPartSpec& spec,
+                                            const part::SectionPart& part, const Caption& caption);
 /// dxf/section_dstv.hpp
 [[nodiscard]] std::string section_part_dstv(const part::SectionPartSpec& spec,
                                             const part::SectionPart& part, const Caption& caption);

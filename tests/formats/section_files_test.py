@@ -6,6 +6,7 @@ import random
 import re
 import xml.etree.ElementTree as xml
 
+import step_reader
 from dstv_test import parse, rows_of
 from dxf_test import length, polylines, read
 from service import FormatTest, drawing_seed, main
@@ -207,6 +208,39 @@ class SectionFiles(FormatTest):
                 for got, (x, y) in zip(answer["side_lengths"]["face_mm"], ((height, 0), (0, width), (-height, 0), (0, -width))):
                     self.assertAlmostEqual(got, finish(x, y) - start(x, y), delta=0.05)
 
+    def test_step_is_one_solid_with_the_answers_volume(self):
+        """Drawn parts by planes and tubes, with and without a land, rows by tolerance and on a bare grid."""
+        for number in range(5):
+            with self.subTest(number):
+                body = self.drawn_step_part()
+                answer = self.service.answer("parts", body)
+                solid = step_reader.Solid(step_reader.File(self.service.text("parts", body, "format=step").decode("ascii")))
+                self.assertEqual(step_reader.faults(solid, 1), [])
+                wanted = answer["result"]["lengths"]["volume_mm3"]
+                self.assertAlmostEqual(step_reader.volume(solid) / wanted, 1, delta=2e-6)
+                names = {face["name"] for face in solid.faces}
+                self.assertEqual(names, {"outside", "bore", "start", "finish"})
+
+    def drawn_step_part(self):
+        rng = self.rng
+        target, lengths = drawn_section(rng)
+        target["length_mm"] = 900
+
+        def end():
+            if rng.random() < 0.2:
+                return {"square_at_mm": 5}
+            across = [math.cos(turn := rng.uniform(0, 6.3)), math.sin(turn), rng.uniform(-0.4, 0.4)]
+            chord = {"kind": "tube", "outer_diameter_mm": 1.5 * math.hypot(*lengths[:2]), "axis": {"point_mm": [0, 0, 0], "direction": across}}
+            stub = {"kind": "tube", "outer_diameter_mm": 0.5 * min(lengths[:2]), "axis": {"point_mm": [0, 0, 40], "direction": across}}
+            plane = {"kind": "plane", "point_mm": [0, 0, 0], "normal": [rng.uniform(-1, 1), rng.uniform(-1, 1), 1]}
+            cut = rng.choice([{"groove": {"rule": "square"}, "contact": "auto"}, {"groove": {"rule": "none"}, "contact": "none"},
+                              {"groove": {"rule": "fixed", "angle_deg": 30}, "contact": "inner", "root_face_mm": 0.4 * lengths[2]}])
+            if rng.random() < 0.3 and "root_face_mm" not in cut:
+                return {"cutters": [plane, stub], "root_surface": "inner", "smoothing": {"method": "none"}, **cut}
+            return {"cutters": [rng.choice([chord, plane])], "root_surface": "inner", "smoothing": {"method": "none"}, **cut}
+        sampling = rng.choice([{"tolerance_mm": 0.02}, {"uniform_points": 72}])
+        return {"target": target, "ends": {"start": end(), "finish": end()}, "kerf_mm": 0, "torch": {"min_deg": -85, "max_deg": 85}, "sampling": sampling}
+
     def test_nc1_has_each_face_on_the_sharp_rectangle(self):
         """Each point of a face's outline lies on the outside of the tube, seen square to that face, and on the plane of its end."""
         for n in range(10):
@@ -264,9 +298,8 @@ class SectionFiles(FormatTest):
             status, _, content = self.service.ask("bevel-tables", body, query)
             self.assertEqual((status, name in content.decode()), (422, True), content)
         part = self.drawn_part()[0]
-        for query in ("format=step", "format=gcode&speed_mm_min=2000"):
-            status, _, content = self.service.ask("parts", part, query)
-            self.assertEqual((status, "csv, svg, pdf, dxf and nc1" in content.decode()), (422, True), content)
+        status, _, content = self.service.ask("parts", part, "format=gcode&speed_mm_min=2000")
+        self.assertEqual((status, "csv, svg, pdf, dxf, nc1 and step" in content.decode()), (422, True), content)
 
 
 if __name__ == "__main__":

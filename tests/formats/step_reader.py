@@ -291,6 +291,14 @@ class Solid:
             raise Malformed("a frame that is not about z")
         return self.triple(origin, "CARTESIAN_POINT")
 
+    def plane(self, number):
+        """Point and normal of a plane; x of its frame lies in it."""
+        _, origin, z, x = self.file.get(number, "AXIS2_PLACEMENT_3D")
+        normal, x = self.triple(z, "DIRECTION"), self.triple(x, "DIRECTION")
+        if abs(np.linalg.norm(normal) - 1) > 1e-9 or abs(np.linalg.norm(x) - 1) > 1e-9 or abs(x @ normal) > 1e-9:
+            raise Malformed("a frame that is not square")
+        return self.triple(origin, "CARTESIAN_POINT"), normal
+
     def curve_and_flats(self, number):
         """A curve, and what it is on surfaces: [(cylinder's number, where (angle, height) is on it, spline)]."""
         if self.file.entities[number][0] != "SURFACE_CURVE":
@@ -341,7 +349,7 @@ class Solid:
         if kind == "CYLINDRICAL_SURFACE":
             return ("cylinder", self.frame(v[1]), v[2])
         if kind == "PLANE":
-            return ("plane", self.frame(v[1]))
+            return ("plane", *self.plane(v[1]))
         if kind != "B_SPLINE_SURFACE_WITH_KNOTS" or v[2] != 1 or v[9] != [2, 2]:
             raise Malformed(f"a surface {kind}")
         grid = np.array([[self.triple(n, "CARTESIAN_POINT") for n in row] for row in v[3]])
@@ -403,9 +411,10 @@ def nearest(spline, points):
 def off_surface(surface, points):
     kind, *about = surface
     if kind == "cylinder":
-        return np.abs(np.hypot(points[:, 0], points[:, 1]) - about[1])
+        from_axis = points - about[0]
+        return np.abs(np.hypot(from_axis[:, 0], from_axis[:, 1]) - about[1])
     if kind == "plane":
-        return np.abs(points[:, 2] - about[0][2])
+        return np.abs((points - about[0]) @ about[1])
     return nearest(about[0], points)
 
 
@@ -424,9 +433,13 @@ def signed_area(face, solid):
     kind, *about = face["surface"]
     points = np.concatenate([curve_points(solid.edges[e], forward)[:-1] for e, forward in face["loops"][0]])
     if kind == "plane":
-        x, y = points[:, 0], points[:, 1]
+        normal = about[1]
+        side = np.cross(normal, (0, 0, 1) if abs(normal[2]) < 0.5 else (0, 1, 0))
+        side /= np.linalg.norm(side)
+        x, y = points @ side, points @ np.cross(normal, side)
     elif kind == "cylinder":
-        x, y = np.unwrap(np.arctan2(points[:, 1], points[:, 0])), points[:, 2]
+        from_axis = points - about[0]
+        x, y = np.unwrap(np.arctan2(from_axis[:, 1], from_axis[:, 0])), points[:, 2]
     else:
         # Between the rulings too: one may be shorter than the way to the next, and slant.
         at, _ = about[0].at(about[0].within((0, 0.5)))
@@ -441,6 +454,36 @@ def signed_area(face, solid):
     return 0.5 * np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)
 
 
+def along_curve(edge, forward):
+    """Places of an edge for an integral along it, and the weighted ways there, both as (x, y, z)."""
+    kind, *about = edge["curve"]
+    a, b = edge["points"]
+    if kind == "spline":
+        at, slope = about[0].at(about[0].within(PLACES))
+        ways = slope * (np.diff(about[0].knots)[:, None] * WEIGHTS[None]).ravel()[:, None]
+    else:
+        at, ways = a + PLACES[:, None] * (b - a), WEIGHTS[:, None] * (b - a)
+    return at, ways if forward else -ways
+
+
+def under_plane(face, solid):
+    """Integral of z over a plane's shadow, by Green's theorem along its loops; a circle counts whole."""
+    point, normal = face["surface"][1:]
+    if abs(normal[2]) < 1e-9:
+        return 0.0
+    if solid.edges[face["loops"][0][0][0]]["curve"][0] == "circle":
+        radii = [solid.edges[loop[0][0]]["curve"][2] for loop in face["loops"]]
+        return np.sign(normal[2]) * point[2] * np.pi * (radii[0] ** 2 - sum(radius**2 for radius in radii[1:]))
+    b, c = -normal[:2] / normal[2]
+    total, a = 0.0, point[2] - b * point[0] - c * point[1]
+    for loop in face["loops"]:
+        for edge, forward in loop:
+            at, ways = along_curve(solid.edges[edge], forward)
+            x, y = at[:, 0], at[:, 1]
+            total += np.sum((a * x + b * x * x / 2 + c * x * y) * ways[:, 1])
+    return total
+
+
 def volume(solid):
     """Integral of z over the border's shadow: cylinders about z have none."""
     total = 0.0
@@ -448,8 +491,8 @@ def volume(solid):
         kind, *about = face["surface"]
         sign = 1.0 if face["same"] else -1.0
         if kind == "plane":
-            radii = [solid.edges[loop[0][0]]["curve"][2] for loop in face["loops"]]
-            total += sign * about[0][2] * np.pi * (radii[0] ** 2 - sum(radius**2 for radius in radii[1:]))
+            # Its loops run as seen from outside, so those of a plane that looks down count against z already.
+            total += under_plane(face, solid) * (sign if solid.edges[face["loops"][0][0][0]]["curve"][0] == "circle" else 1.0)
         if kind == "ruled":
             p, d = about[0].at(about[0].within(PLACES))
             weights = (np.diff(about[0].knots)[:, None] * WEIGHTS[None]).ravel()
@@ -475,7 +518,8 @@ def faults(solid, genus):
         if (area > 0) != face["same"]:
             out.append(f"face {i} {face['name']}: its loop runs against its normal")
         kind = face["surface"][0]
-        if kind == "cylinder" and face["same"] != (face["surface"][2] == max(f["surface"][2] for f in solid.faces if f["surface"][0] == kind)):
+        about_z = kind == "cylinder" and not np.any(face["surface"][1])
+        if about_z and face["same"] != (face["surface"][2] == max(f["surface"][2] for f in solid.faces if f["surface"][0] == kind)):
             out.append(f"face {i}: a wall that looks inwards")
     for edge, about in solid.edges.items():
         if sorted(forward for _, forward in uses.get(edge, [])) != [False, True]:

@@ -29,13 +29,12 @@ export function known(type: string): [name: string, ending: string, purpose: Pur
   return media[type] ?? (/dstv|nc1/.test(type) ? ['DSTV', 'nc1', 'model'] : [type, 'txt', 'data']);
 }
 
-/** The formats and views of an answer: programs, STEP and sections of the wall are of round tubes only; NC1 also of `whole` parts, because it needs
- *  both ends. */
+/** The formats and views of an answer: programs and sections of the wall are of round tubes only; STEP and NC1 also of `whole` parts. */
 export const printable = (formats: Format[], round: boolean, whole = false): Format[] =>
   round
     ? formats
     : formats
-        .filter(({media: type}) => known(type)[2] !== 'program' && !/step/.test(type) && (whole || !/dstv|nc1/.test(type)))
+        .filter(({media: type}) => known(type)[2] !== 'program' && (whole || !/dstv|nc1|step/.test(type)))
         .map((format) => ({...format, views: format.views.filter((view) => view !== 'section')}));
 
 /** The purposes that an endpoint has files for. */

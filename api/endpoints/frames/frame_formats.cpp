@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "api/formats/csv.hpp"
-#include "api/formats/section_formats.hpp"
+#include "api/formats/step/section_solid.hpp"
 #include "api/formats/step/step.hpp"
 #include "api/stop.hpp"
 #include "api/wire/columns.hpp"
@@ -37,8 +37,10 @@ struct CsvRow {
 StepFile::Shape add_solid(const FrameJob& frame, std::size_t i, const Worked<Parts>& part,
                           const Caption& caption, StepFile& file) {
   const auto& name = name_of_part(frame, i);
-  if (part.out.of_section) throw no_format_of_section("csv, and as zip the files of its parts");
   try {
+    if (part.out.of_section)
+      return file.solid(section_solid(part.spec.of_section, *part.out.of_section, caption.stop),
+                        product_of(part.spec.of_section.section, name, caption));
     return file.solid(part_solid(part.spec.part, part.out, caption),
                       product_of(part.spec.part.target, name, caption));
   } catch (const UnfitOption& met) {

@@ -58,10 +58,9 @@ class Printer {
       : solid_(solid), pace_(pace), entities_(entities) {}
 
   Id boundary();
-  void colour(Id brep, Id context);
+  [[nodiscard]] const std::vector<Id>& cut_faces() const { return cut_faces_; }
 
  private:
-  Id style(const std::array<double, 3>& rgb);
   std::vector<Id> points(const TubeSolid::Piece& piece);
   [[nodiscard]] bool has_corner(const TubeSolid::Piece& piece) const;
   [[nodiscard]] bool polygonal(const TubeSolid::Piece& piece) const;
@@ -246,32 +245,6 @@ Id Printer::boundary() {
   return entities_.add("MANIFOLD_SOLID_BREP(''," + step_ref(shell) + ")");
 }
 
-Id Printer::style(const std::array<double, 3>& rgb) {
-  std::string colour = "COLOUR_RGB(''";
-  for (const double share : rgb) colour += "," + step_real(share, 3);
-  auto last = entities_.add(colour + ")");
-  for (const auto* wrap : {"FILL_AREA_STYLE_COLOUR('',#)", "FILL_AREA_STYLE('',(#))",
-                           "SURFACE_STYLE_FILL_AREA(#)", "SURFACE_SIDE_STYLE('',(#))",
-                           "SURFACE_STYLE_USAGE(.BOTH.,#)", "PRESENTATION_STYLE_ASSIGNMENT((#))"}) {
-    std::string entity(wrap);
-    last = entities_.add(entity.replace(entity.find('#'), 1, step_ref(last)));
-  }
-  return last;
-}
-
-void Printer::colour(Id brep, Id context) {
-  std::vector<Id> styled;
-  const auto paint = [&](const std::vector<Id>& items, Id with) {
-    for (const auto item : items)
-      styled.push_back(
-          entities_.add("STYLED_ITEM(''," + step_refs({with}) + "," + step_ref(item) + ")"));
-  };
-  paint({brep}, style({0.62, 0.65, 0.68}));
-  paint(cut_faces_, style({0.86, 0.45, 0.16}));
-  entities_.add("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION(''," + step_refs(styled) +
-                "," + step_ref(context) + ")");
-}
-
 Id add_units(StepEntities& e) {
   const auto mm = e.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
   const auto rad = e.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
@@ -321,20 +294,54 @@ StepFile::Id StepFile::add_product(const Product& product) {
                ")");
 }
 
-StepFile::Shape StepFile::solid(const TubeSolid& solid, const Product& product) {
+StepFile::Id StepFile::style(const std::array<double, 3>& rgb) {
+  std::string colour = "COLOUR_RGB(''";
+  for (const double share : rgb) colour += "," + step_real(share, 3);
+  auto last = entities_.add(colour + ")");
+  for (const auto* wrap : {"FILL_AREA_STYLE_COLOUR('',#)", "FILL_AREA_STYLE('',(#))",
+                           "SURFACE_STYLE_FILL_AREA(#)", "SURFACE_SIDE_STYLE('',(#))",
+                           "SURFACE_STYLE_USAGE(.BOTH.,#)", "PRESENTATION_STYLE_ASSIGNMENT((#))"}) {
+    std::string entity(wrap);
+    last = entities_.add(entity.replace(entity.find('#'), 1, step_ref(last)));
+  }
+  return last;
+}
+
+void StepFile::colour(Id brep, const std::vector<Id>& cut_faces) {
+  std::vector<Id> styled;
+  const auto paint = [&](const std::vector<Id>& items, Id with) {
+    for (const auto item : items)
+      styled.push_back(
+          entities_.add("STYLED_ITEM(''," + step_refs({with}) + "," + step_ref(item) + ")"));
+  };
+  paint({brep}, style({0.62, 0.65, 0.68}));
+  paint(cut_faces, style({0.86, 0.45, 0.16}));
+  entities_.add("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION(''," + step_refs(styled) +
+                "," + step_ref(context_) + ")");
+}
+
+StepFile::Shape StepFile::add_solid(const Product& product,
+                                    const std::function<std::pair<Id, std::vector<Id>>()>& print) {
   auto& e = entities_;
   Shape out{.definition = add_product(product)};
   const auto shape = e.add("PRODUCT_DEFINITION_SHAPE('',''," + step_ref(out.definition) + ")");
   if (context_ == 0) context_ = add_units(e);
-  Printer printer(solid, e, pace_);
-  const auto brep = printer.boundary();
+  const auto [brep, cut_faces] = print();
   out.axes = e.placement({0, 0, 0});
   out.representation = e.add("ADVANCED_BREP_SHAPE_REPRESENTATION(''," +
                              step_refs({out.axes, brep}) + "," + step_ref(context_) + ")");
   e.add("SHAPE_DEFINITION_REPRESENTATION(" + step_ref(shape) + "," + step_ref(out.representation) +
         ")");
-  printer.colour(brep, context_);
+  colour(brep, cut_faces);
   return out;
+}
+
+StepFile::Shape StepFile::solid(const TubeSolid& solid, const Product& product) {
+  return add_solid(product, [&] {
+    Printer printer(solid, entities_, pace_);
+    const auto brep = printer.boundary();
+    return std::pair{brep, printer.cut_faces()};
+  });
 }
 
 void StepFile::assembly(const Product& product, const std::vector<Placed>& parts) {

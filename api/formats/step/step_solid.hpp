@@ -1,11 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "api/formats/mesh/tube_solid.hpp"
+#include "api/formats/step/brep.hpp"
 #include "api/formats/step/step_file.hpp"
 #include "api/stop.hpp"
 #include "api/wire/format.hpp"
@@ -38,12 +42,18 @@ class StepFile {
   StepFile(double thinnest, const Caption& caption);
 
   Shape solid(const TubeSolid& solid, const Product& product);
+  Shape solid(const Brep& solid, const Product& product);
   void assembly(const Product& product, const std::vector<Placed>& parts);
   /// The whole text; `what` it holds, in words.
   [[nodiscard]] std::string print(const Product& product, std::string_view what) const;
 
  private:
   Id add_product(const Product& product);
+  /// `print`: its boundary, and the faces of its cuts.
+  Shape add_solid(const Product& product,
+                  const std::function<std::pair<Id, std::vector<Id>>()>& print);
+  Id style(const std::array<double, 3>& rgb);
+  void colour(Id brep, const std::vector<Id>& cut_faces);
 
   const Caption& caption_;
   Pace pace_;
@@ -53,6 +63,8 @@ class StepFile {
 
 /// A file of one solid.
 [[nodiscard]] std::string print_step(const TubeSolid& solid, const Product& product,
+                                     const Caption& caption);
+[[nodiscard]] std::string print_step(const Brep& solid, const Product& product,
                                      const Caption& caption);
 
 }  // namespace tubecut::api

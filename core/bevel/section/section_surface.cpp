@@ -23,6 +23,8 @@ constexpr double kMargin = 0.008;   // of half a kerf: five times what the grid 
 constexpr int kGoldenSteps =
     10;                    // the bracket shrinks to 1/120, the need is good to 1e-6 of a kerf
 constexpr int kInGap = 8;  // parts of a gap between rows
+constexpr int kInGapRounds = 3;
+constexpr double kShallow = 1e-3;  // mm: how far inside a partner more rounds are worth
 
 }  // namespace
 
@@ -302,17 +304,28 @@ SectionTable::Deepest deepest_in_gap(const SectionSurface& surface, std::size_t 
     if (out.depth > before) deepest_share = static_cast<double>(k) / kInGap;
   }
   if (!(out.depth > 0.0)) return out;
-  const double share = across;
   const std::size_t solid = out.solid;
-  const auto depth_at = [&](double at) {
+  const auto depth_at = [&](double at, double share) {
     const auto line = surface.line(row, at);
     const double depth = share * line.wall;
     return -solids[solid].distance(SectionSurface::place(line, depth, surface.z(line, depth)));
   };
-  const auto most =
-      math::golden_maximum<kGoldenSteps>(depth_at, std::max(0.0, deepest_share - 1.0 / kInGap),
-                                         std::min(1.0, deepest_share + 1.0 / kInGap));
-  see(surface.line(row, most.at), share);
+  const auto most = [](const auto& of, double at, double step) {
+    return math::golden_maximum<kGoldenSteps>(of, std::max(0.0, at - step),
+                                              std::min(1.0, at + step))
+        .at;
+  };
+  // Along, across, and along again, because a thin partner is deepest between the places looked at.
+  for (int round = 0; round < kInGapRounds; ++round) {
+    const double share = across;
+    deepest_share =
+        most([&](double at) { return depth_at(at, share); }, deepest_share, 1.0 / kInGap);
+    see(surface.line(row, deepest_share), share);
+    if (!(out.depth > kShallow)) break;
+    const double way = deepest_share;
+    across = most([&](double of) { return depth_at(way, of); }, across, 1.0 / kAcross);
+    see(surface.line(row, way), across);
+  }
   return out;
 }
 
