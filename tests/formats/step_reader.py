@@ -7,6 +7,10 @@ import numpy as np
 TOKEN = re.compile(r"""\s*(?:(?P<string>'(?:[^'\\]|''|\\\\|\\X2\\(?:[0-9A-F]{4})+\\X0\\|\\X4\\(?:[0-9A-F]{8})+\\X0\\)*')
   |(?P<real>[+-]?\d+\.\d*(?:E[+-]?\d+)?)|(?P<integer>[+-]?\d+)|(?P<name>\#\d+)|(?P<enumeration>\.[A-Z_][A-Z0-9_]*\.)
   |(?P<word>!?[A-Z_][A-Z0-9_]*)|(?P<sign>[()=;,$*]))""", re.X)
+FOREIGN = re.compile(r"[^ -~\n]")
+# Most of a file is points, so they are read at once; they are of the grammar that `value` reads token by token.
+REAL = r"[+-]?\d+\.\d*(?:E[+-]?\d+)?"
+POINT = re.compile(rf"#(\d+)=CARTESIAN_POINT\('',\(({REAL}(?:,{REAL})*)\)\);\n")
 
 
 class Malformed(Exception):
@@ -91,7 +95,7 @@ class File:
     """header: {word: values}; entities: {number: (type, values)}, of a complex one ({type: values})."""
 
     def __init__(self, text):
-        if any(not " " <= c <= "~" and c != "\n" for c in text):
+        if FOREIGN.search(text):
             raise Malformed("a character that the standard does not know")
         shape = re.fullmatch(r"ISO-10303-21;\nHEADER;\n(.*?)ENDSEC;\nDATA;\n(.*)ENDSEC;\nEND-ISO-10303-21;\n", text, re.S)
         if not shape:
@@ -105,13 +109,14 @@ class File:
             raise Malformed(f"header of {list(self.header)}")
         if any(len(line) > 256 for line in self.header["FILE_DESCRIPTION"][0]):
             raise Malformed("a line of the header is longer than 256")
-        self.entities, stream, i = {}, tokens(shape[2]), 0
+        self.entities = {}
+        for number, coordinates in POINT.findall(shape[2]):
+            self.add(int(number), ("CARTESIAN_POINT", ["", [float(word) for word in coordinates.split(",")]]))
+        stream, i = tokens(POINT.sub("", shape[2])), 0
         while i < len(stream):
             if stream[i][0] != "name" or stream[i + 1][1] != "=":
                 raise Malformed(f"no instance: {stream[i]}")
             number, i = int(stream[i][1][1:]), i + 2
-            if number in self.entities:
-                raise Malformed(f"#{number} twice")
             if stream[i][1] == "(":
                 parts, i = {}, i + 1
                 while stream[i][1] != ")":
@@ -119,13 +124,19 @@ class File:
                     parts[word], i = values(stream, i + 1)
                 if list(parts) != sorted(parts):
                     raise Malformed("the parts of a complex instance are not in the order of the alphabet")
-                self.entities[number], i = parts, i + 1
+                self.add(number, parts)
+                i += 1
             else:
                 word = stream[i][1]
                 inner, i = values(stream, i + 1)
-                self.entities[number] = (word, inner)
+                self.add(number, (word, inner))
             i = self.end(stream, i)
         self.check_references()
+
+    def add(self, number, entity):
+        if number in self.entities:
+            raise Malformed(f"#{number} twice")
+        self.entities[number] = entity
 
     @staticmethod
     def end(stream, i):
@@ -145,7 +156,8 @@ class File:
             elif isinstance(item, dict):
                 see(list(item.values()))
         for entity in self.entities.values():
-            see(entity)
+            if isinstance(entity, dict) or entity[0] != "CARTESIAN_POINT":
+                see(entity)
         if used - set(self.entities):
             raise Malformed(f"named and not there: {sorted(used - set(self.entities))[:5]}")
         roots = {self.entities[n][0] for n in set(self.entities) - used if not isinstance(self.entities[n], dict)}
@@ -174,7 +186,7 @@ class Spline:
             raise Malformed("knots do not rise, or the ends are open")
         if any(not 1 <= count <= degree for count in counts[1:-1]):
             raise Malformed("a knot of too high a multiplicity")
-        self.knots, self.flat = np.array(knots), np.repeat(knots, counts)
+        self.knots, self.flat, self.sampled = np.array(knots), np.repeat(knots, counts), None
 
     def at(self, u):
         """(points, slopes) at each u, by de Boor."""
@@ -193,6 +205,12 @@ class Spline:
                 new[j] = (1 - share) * d[j - 1] + share * d[j]
             d = new
         return d[p], slope
+
+    def rulings(self):
+        """Of a ruled surface, once for all points that are held against it."""
+        if self.sampled is None:
+            self.sampled = Rulings(self)
+        return self.sampled
 
     def within(self, places):
         """Parameters at these shares of every span."""
@@ -359,6 +377,7 @@ class Solid:
 PLACES, WEIGHTS = np.polynomial.legendre.leggauss(6)
 PLACES, WEIGHTS = (PLACES + 1) / 2, WEIGHTS / 2
 NEAR = 1e-3  # mm: an edge on both its faces
+STILL = 1e-10  # of a surface, what a step to the nearest place is to be more than
 FLAT_OFF = NEAR  # mm: distance of an edge from its curve on the cylinder at the same parameter
 
 
@@ -378,22 +397,43 @@ def curve_points(edge, forward=True):
     return out if forward else out[::-1]
 
 
+BLOCK = 32  # rulings
+
+
+class Rulings:
+    """Rulings of a surface, eight to a span, in blocks of which each has its ball."""
+
+    def __init__(self, spline):
+        u = spline.within(np.arange(8) / 8)
+        u = np.append(u, np.repeat(u[-1], -len(u) % BLOCK)).reshape(-1, BLOCK)
+        ends = spline.at(u.ravel())[0].reshape(*u.shape, 2, 3)
+        self.u, self.foot, self.across = u, ends[:, :, 0], ends[:, :, 1] - ends[:, :, 0]
+        self.square = np.einsum("bki,bki->bk", self.across, self.across)
+        corners = ends.reshape(len(u), -1, 3)
+        self.centre = (corners.min(axis=1) + corners.max(axis=1)) / 2
+        self.radius = np.linalg.norm(corners - self.centre[:, None], axis=2).max(axis=1)
+
+    def nearest(self, points):
+        """(u, v) of the nearest place on any of them. Only those blocks are looked at whose ball may hold it."""
+        if len(points) > 256:  # what is held at a time
+            return np.concatenate([self.nearest(points[i:i + 256]) for i in range(0, len(points), 256)], axis=1)
+        far = np.linalg.norm(points[:, None] - self.centre[None], axis=2)
+        which, block = np.nonzero(far - self.radius <= (far + self.radius).min(axis=1)[:, None])
+        way = points[which, None] - self.foot[block]
+        v = np.clip(np.einsum("nki,nki->nk", way, self.across[block]) / self.square[block], 0, 1)
+        off = np.linalg.norm(way - v[:, :, None] * self.across[block], axis=2)
+        each, best = np.arange(len(which)), np.argmin(off, axis=1)
+        first = np.lexsort((off[each, best], which))[np.flatnonzero(np.diff(which, prepend=-1))]
+        return np.stack([self.u[block[first], best[first]], v[first, best[first]]])
+
+
 def nearest(spline, points):
     """Distance of each point to a ruled surface, within its border."""
-    if len(points) > 64:
-        return np.concatenate([nearest(spline, points[i:i + 64]) for i in range(0, len(points), 64)])
-
     def seen(u, v):
         p, d = spline.at(u)
         v = v[:, None]
         return (1 - v) * p[:, 0] + v * p[:, 1], (1 - v) * d[:, 0] + v * d[:, 1], p[:, 1] - p[:, 0]
-    grid = spline.within(np.arange(8) / 8)
-    at, _ = spline.at(grid)
-    across = at[:, 1] - at[:, 0]
-    shares = np.clip(np.einsum("pgi,gi->pg", points[:, None] - at[None, :, 0], across) / np.einsum("gi,gi->g", across, across), 0, 1)
-    foot = at[None, :, 0] + shares[:, :, None] * across[None]
-    best = np.argmin(np.linalg.norm(points[:, None] - foot, axis=2), axis=1)
-    u, v = grid[best], shares[np.arange(len(points)), best]
+    u, v = spline.rulings().nearest(points)
     out = np.full(len(points), np.inf)
     for _ in range(8):
         place, du, dv = seen(u, v)
@@ -403,8 +443,11 @@ def nearest(spline, points):
         e, f = (np.einsum("pi,pi->p", x, miss) for x in (du, dv))
         det = a * c - b * b
         det = np.where(det > 1e-30, det, np.inf)
-        u = np.clip(u + (c * e - b * f) / det, spline.knots[0], spline.knots[-1])
-        v = np.clip(v + (a * f - b * e) / det, 0, 1)
+        next_u = np.clip(u + (c * e - b * f) / det, spline.knots[0], spline.knots[-1])
+        next_v = np.clip(v + (a * f - b * e) / det, 0, 1)
+        if np.allclose(next_u, u, rtol=0, atol=STILL * np.ptp(spline.knots)) and np.allclose(next_v, v, rtol=0, atol=STILL):
+            break
+        u, v = next_u, next_v
     return out
 
 

@@ -1,5 +1,6 @@
 """STEP files read by a reader of our own: one closed solid each, as the answer has it. `./dev peers` lets Open CASCADE read them."""
 
+import copy
 import json
 import math
 import os
@@ -11,7 +12,8 @@ import numpy as np
 import step_reader
 from service import FormatTest, cutouts, drawing_seed, examples, main
 
-PARTS = int(os.environ.get("TUBECUT_PARTS", "60"))
+PARTS = int(os.environ.get("TUBECUT_PARTS", "24"))  # enough for every kind; ./dev soak drawn takes more
+MANY = int(os.environ.get("TUBECUT_CUTOUTS", "500"))  # of a pattern that is checked whole; ./dev soak drawn leaves none out
 NEAR_CUT = 2e-3   # mm from the cut as answered
 NEAR_ROWS = 1e-3  # mm from its rows, and from the exact cut where that is smooth between them
 VOLUME_OFF = 1e-6  # of the answer's, by the file's own edges and cut faces
@@ -111,6 +113,36 @@ def volume_off(target, result):
     return VOLUME_OFF * result["lengths"]["volume_mm3"] + MEAN_OFF * least_cut_area(target, result)
 
 
+def kinds(body):
+    """What a part is drawn from."""
+    out = {f"{name} {value}" for name, value in body["sampling"].items()}
+    for end in body["ends"].values():
+        cutters = end.get("cutters", [])
+        out |= {f"end of {len(cutters)}"} | {cutter["kind"] for cutter in cutters}
+        if cutters:
+            out |= {f"end {end['groove']['rule']}", end["smoothing"]["method"], "land" if "root_face_mm" in end else "no land"}
+    for hole in body.get("holes", []):
+        out |= {hole["joint"]["kind"], hole["tilt"], f"{hole['joint']['kind']} {hole['groove']['rule']}"}
+    return out
+
+
+EVERY_KIND = {
+    "tolerance_mm 0.001", "tolerance_mm 0.01", "tolerance_mm 0.05", "uniform_points 360", "end of 0", "end of 1", "end of 2", "plane", "tube",
+    "end square", "end half_dihedral", "end none", "none", "envelope", "land", "no land", "axial", "free",
+    "set_on", "set_on none", "set_on half_dihedral", "set_in", "set_in none", "set_in half_dihedral", "set_in square",
+    "through", "through none", "through half_dihedral", "through square"}
+
+
+def thinned(body):
+    """A request whose grids of cut-outs have, of MANY, four along the tube: staggered, and all round it."""
+    out = copy.deepcopy(body)
+    for group in out.get("cutouts", []):
+        pattern = group.get("pattern", {})
+        if pattern.get("kind") == "grid" and pattern["along"]["count"] * pattern["round"]["count"] > MANY:
+            pattern["along"]["count"] = 4
+    return out
+
+
 NARROW_LAND = {  # its rulings are shorter than the way from one to the next, and slant
     "target": {"outer_diameter_mm": 32.89, "wall_mm": 0.83, "length_mm": 148},
     "ends": {"start": {"cutters": [{"kind": "plane", "point_mm": [0, 0, 0], "normal": [0, 0, 1]}], "root_surface": "inner",
@@ -127,7 +159,7 @@ class Step(FormatTest):
 
     def test_drawn_parts(self):
         seed = drawing_seed()
-        r, read, refused, worst, farthest, holes = random.Random(seed), 0, 0, 0.0, 0.0, 0
+        r, read, refused, worst, farthest, holes, missing = random.Random(seed), 0, 0, 0.0, 0.0, 0, set(EVERY_KIND)
         while read < PARTS:
             body = drawn_parts.part(r)
             status, _, answer = self.service.ask("parts", body)
@@ -155,18 +187,29 @@ class Step(FormatTest):
                 rows = rows_of(body, result)
                 self.assertLess(off_cut(smooth, rows[r.sample(range(len(rows)), min(60, len(rows)))]), NEAR_ROWS)
                 worst, farthest, holes = max(worst, off / volume), max(farthest, far), holes + len(result["holes"])
+            missing -= kinds(body)
             read += 1
         print(f"{read} parts, {holes} holes: volume within {worst:.1e}, cut within {farthest:.1e} mm")
         self.assertGreater(holes, PARTS / 4)
+        self.assertEqual(missing, set(), "kinds that no part was of")
 
     def test_every_example_and_view(self):
         count = 0
         for endpoint in ("bevel-tables", "holes", "parts"):
-            for name, body in examples(endpoint).items():
+            for name, whole in examples(endpoint).items():
+                body = thinned(whole)
+                if body != whole:
+                    with self.subTest(f"{endpoint} {name}, whole"):
+                        told = cutouts(self.service.answer(endpoint, whole)["result"])
+                        file = step_reader.File(self.service.text(endpoint, whole, "format=step").decode("ascii"))
+                        few = step_reader.File(self.service.text(endpoint, body, "format=step").decode("ascii"))
+                        left_out = len(told) - len(cutouts(self.service.answer(endpoint, body)["result"]))
+                        for kind, of_one in (("ADVANCED_FACE", 2), ("EDGE_CURVE", 6)):  # a wall of two halves
+                            self.assertEqual(len(file.of(kind)) - len(few.of(kind)), left_out * of_one)
+                result = self.service.answer(endpoint, body)["result"]
                 for view in ("", "&view=straight"):
                     with self.subTest(f"{endpoint} {name} {view}"):
                         content = self.service.text(endpoint, body, f"format=step{view}")
-                        result = self.service.answer(endpoint, body)["result"]
                         solid = solid_of(content)
                         self.assertEqual(step_reader.faults(solid, 1 + len(result.get("holes", [])) + len(cutouts(result))), [])
                         if endpoint == "bevel-tables" and not view:
