@@ -64,7 +64,7 @@ export async function pixels(page, ratio = 'fine') {
     const copy = document.createElement('canvas');
     copy.width = canvas.width;
     copy.height = canvas.height;
-    const pen = copy.getContext('2d');
+    const pen = copy.getContext('2d', {willReadFrequently: true});  // not drawn by a graphics card that is no card
     pen.drawImage(canvas, 0, 0);
     const {data} = pen.getImageData(0, 0, copy.width, copy.height);
     let covered = 0, sum = 0;
