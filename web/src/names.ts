@@ -36,6 +36,8 @@ const exampleNames: Record<string, string> = {
   'nodes/k-joint-from-centre-lines': 'A K joint, from centre-lines',
   'nodes/k-joint-with-tables': 'A K joint, with the tables of its cuts',
   'frames/rhs-gate': 'A gate of rectangular tubes by a tube laser',
+  'frames/rhs-trailer': 'A trailer frame of rectangular tubes',
+  'frames/rhs-rack': 'A storage rack of square and rectangular tubes',
   'frames/rhs-truss-with-gap-k-joints': 'A truss of square tubes with gap K joints',
   'nodes/rhs-t-joint': 'A rectangular post and a round brace on a rectangular chord',
   'nodes/stated-mitre': 'A mitre, stated by a member',
