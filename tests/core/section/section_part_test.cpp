@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
+#include "core/part/member.hpp"
 #include "core/part/part.hpp"
 
 /// Both ends of a tube that is not round: closed forms of planes, the round tube as a limit, and
@@ -246,6 +248,40 @@ TEST(SectionParts, WhoseCutsMeetAreRefused) {
   const auto part = section_part(spec);
   ASSERT_FALSE(part);
   EXPECT_EQ(part.error().issues.front().code, ErrorCode::member_consumed);
+}
+
+/// The volume of a square-cut length is its area times that, whatever the radii of the corners: a
+/// bore that is far from concentric is looked at closely enough, by the answer and by its check.
+TEST(SectionParts, SquareLengthsHaveTheSectionsArea) {
+  for (const auto& [corner, inner] : {std::pair{10.5, 0.8},
+                                      {12.0, 1.0},
+                                      {10.5, 3.0},
+                                      {8.0, 8.0},
+                                      {7.5, 5.0},
+                                      {5.6, 0.6},
+                                      {20.0, 12.0}})
+    for (const bool by_tolerance : {true, false}) {
+      SectionPartSpec spec;
+      spec.section = {100, 80, 5, corner, inner};
+      if (!section::check(spec.section)) continue;
+      spec.length = 1000.0;
+      bevel::TableSpec cut;
+      cut.groove = bevel::SquareCut{};
+      cut.contact = bevel::Contact::automatic;
+      cut.smoothing = bevel::NoSmoothing{};
+      if (by_tolerance)
+        cut.sampling.tolerance = joint::Tolerance{.value = 0.05};
+      else
+        cut.sampling.uniform_points = 72;
+      spec.start = square_end(cut, 0.0);
+      spec.finish = square_end(cut, 0.0);
+      const auto part = section_part(spec);
+      ASSERT_TRUE(part);
+      EXPECT_NEAR(part->lengths.volume / (1000.0 * section::area(spec.section)), 1.0, 1e-9)
+          << corner << " " << inner;
+      for (const auto& check : verify(spec, *part))
+        EXPECT_LE(check.value, check.limit) << check.name << " " << corner << " " << inner;
+    }
 }
 
 }  // namespace tubecut::part::section_parts
