@@ -40,6 +40,15 @@ function positive(said: string): number {
   return value;
 }
 
+const standards = ['en_10219', 'en_10210', 'astm_a500'] as const;
+const corner: Question = {key: 'corner', text: 'Corners of square tubes that it does not state', hint: `${standards.join(', ')} or the radius, mm`};
+function cornersOf({corner: said}: Answers): {corners?: (typeof standards)[number]; corner_radius_mm?: number} {
+  const name = said?.trim();
+  if (!name) return {};
+  const corners = standards.find((each) => each === name.toLowerCase());
+  return corners ? {corners} : {corner_radius_mm: positive(name)};
+}
+
 function pointOf(said: string): [number, number, number] {
   const [x, y, z, ...rest] = said
     .split(/[\s,;]+/)
@@ -83,6 +92,7 @@ function tableQuestions(importer: Importer, file: string): Question[] {
     ...(open.includes('decimal') ? [marks] : []),
     ...importer.fields.map((field) => ({key: field, text: `Column of ${field.replace(/_/g, ' ')}`, choices, value: columns[field]?.trim() ?? ''})),
     {key: 'all', text: 'Size of the other rows'},
+    corner,
     ...(nodes ? [] : [{key: 'nodes', text: 'Table of nodes: node, x, y, z', lines: true, hint: 'node, x, y, z'}]),
     merge,
   ];
@@ -90,14 +100,10 @@ function tableQuestions(importer: Importer, file: string): Question[] {
 
 export const kinds: Record<string, Kind> = {
   ifc: {
-    questions: () => [
-      {key: 'origin', text: 'Its point that is the origin here, mm', hint: '0, 0, 0'},
-      {key: 'corner', text: 'Radius of square tubes’ sharp corners, mm', hint: 'none'},
-      merge,
-    ],
+    questions: () => [{key: 'origin', text: 'Its point that is the origin here, mm', hint: '0, 0, 0'}, corner, merge],
     read: (importer, file, answers) => {
-      const {origin, corner} = answers;
-      const more = {...(origin?.trim() ? {origin_mm: pointOf(origin)} : {}), ...(corner?.trim() ? {corner_radius_mm: positive(corner)} : {})};
+      const {origin} = answers;
+      const more = {...(origin?.trim() ? {origin_mm: pointOf(origin)} : {}), ...cornersOf(answers)};
       return importer.fromIfc(file, {wasm: importer.wasm, ...more, ...merged(answers)});
     },
   },
@@ -119,13 +125,14 @@ export const kinds: Record<string, Kind> = {
       const {nodes, decimal} = answers;
       const size = sizeOf(answers['all']);
       const more = {...(size ? {size} : {}), ...(nodes?.trim() ? {nodes} : {}), ...(decimal ? {decimal: decimal as '.' | ','} : {})};
-      return importer.fromCsv(text(file), {columns, ...unitAnswer(answers), ...more, ...merged(answers)});
+      return importer.fromCsv(text(file), {columns, ...unitAnswer(answers), ...cornersOf(answers), ...more, ...merged(answers)});
     },
   },
   dxf: {
     questions: (importer, file) => [
       {key: 'unit', text: 'Drawn in', choices: [['', 'as it says'], ...named(Object.keys(importer.lengths))], value: ''},
       ...importer.layersOf(file).map((layer) => ({key: `layer ${layer}`, text: `Size of ${layer}`})),
+      corner,
       merge,
     ],
     read: (importer, file, answers) => {
@@ -133,7 +140,7 @@ export const kinds: Record<string, Kind> = {
         const size = key.startsWith('layer ') && sizeOf(said);
         return size ? [[key.slice('layer '.length), size]] : [];
       });
-      return importer.fromDxf(text(file), Object.fromEntries(layers), {...unitAnswer(answers), ...merged(answers)});
+      return importer.fromDxf(text(file), Object.fromEntries(layers), {...unitAnswer(answers), ...cornersOf(answers), ...merged(answers)});
     },
   },
 };

@@ -1,15 +1,18 @@
 import {type Drawing, drawingOf, type Drawn} from './drawing.js';
-import {exact, full, type Found, type FrameOptions, frameOf, type Imported, names, nothing, rounded, type Size} from './frame.js';
+import {exact, full, type Found, type FrameOptions, frameOf, type Imported, type Member, names, nothing, rounded, type Size} from './frame.js';
 import {limits} from './limits.js';
-import {distance, times, type Vector} from './geometry.js';
+import {distance, minus, times, type Vector} from './geometry.js';
+import {type CornerOptions, cornersStated, cornersToState, type Section, sidesSaid, standards, uncut, usually, usualUp} from './sections.js';
 import {lengths, type LengthUnit} from './units.js';
 
-export interface DxfOptions extends FrameOptions {
+export interface DxfOptions extends FrameOptions, CornerOptions {
   /** Of the drawing, if it has no $INSUNITS. */
   unit?: LengthUnit;
 }
 
 class Trouble extends Error {}
+/** A layer of rectangular tubes whose corners nobody states. */
+class Cornerless extends Trouble {}
 
 // $INSUNITS, of those that a drawing of tubes is in.
 const units: Record<number, LengthUnit> = {1: 'in', 2: 'ft', 4: 'mm', 5: 'cm', 6: 'm'};
@@ -82,11 +85,24 @@ function arc(entity: Drawn): Piece[] {
 
 const kinds: Record<string, (entity: Drawn) => Piece[]> = {LINE: line, LWPOLYLINE: polyline, POLYLINE: polyline, ARC: arc};
 
+/** The size of a layer's tubes: a name of a rectangular one is a section, which needs corners. */
+function sizeOf(layer: string, size: Size, options: CornerOptions): Size | Section {
+  const sides = 'size' in size ? sidesSaid(size.size) : undefined;
+  if (!sides) return size;
+  const {corners: own, ...rest} = sides;
+  const corners = own ? {corners: own} : cornersStated(options);
+  if (!corners) throw new Cornerless(`the corners of layer ${layer} are not stated: state --corner, ${cornersToState}`);
+  const why = uncut(rest, corners);
+  if (why !== undefined) throw new Trouble(why);
+  return {kind: 'rectangular_tube', ...rest, ...corners};
+}
+
 /** An arc's outside diameter must be a number: it has no name in the request. */
-function add(found: Found, piece: Piece, id: string, size: Size, mm: number): void {
+function add(found: Found, piece: Piece, id: string, size: Size | Section, mm: number): void {
   if (!('centre' in piece)) {
     if (distance(piece.from, piece.to) === 0) throw new Trouble('it has no length');
-    found.members.push({id, start_mm: rounded(times(piece.from, mm)), end_mm: rounded(times(piece.to, mm)), ...size});
+    const up = 'kind' in size ? {up: usualUp(minus(piece.to, piece.from))} : {};
+    found.members.push({id, start_mm: rounded(times(piece.from, mm)), end_mm: rounded(times(piece.to, mm)), ...size, ...up} as Member);
     return;
   }
   if (!('outer_diameter_mm' in size)) throw new Trouble('an arc needs a size in mm');
@@ -137,6 +153,8 @@ function every(text: string, sizesByLayer: Record<string, Size>, found: Found, o
   if (!unit) throw new Trouble('the drawing does not state its unit ($INSUNITS), and no unit was given');
   const mm = lengths[unit];
   const name = names();
+  const sided = new Set<string>();
+  const cornerless = new Map<string, number>();
   for (const entity of drawing.entities) {
     if (full(found)) return;
     const mark = `handle ${entity.handle}`;
@@ -144,18 +162,24 @@ function every(text: string, sizesByLayer: Record<string, Size>, found: Found, o
       const kind = Object.hasOwn(kinds, entity.type) ? kinds[entity.type] : undefined;
       if (!kind) throw new Trouble(`${entity.type} is not imported`);
       if (entity.inPaperSpace) throw new Trouble('it is drawn on a sheet, not in the model');
-      const size = Object.hasOwn(sizesByLayer, entity.layer) ? sizesByLayer[entity.layer] : undefined;
-      if (!size) throw new Trouble(`no size was given for layer ${entity.layer}`);
+      const given = Object.hasOwn(sizesByLayer, entity.layer) ? sizesByLayer[entity.layer] : undefined;
+      if (!given) throw new Trouble(`no size was given for layer ${entity.layer}`);
+      const size = sizeOf(entity.layer, given, options);
       const pieces = kind(entity);
       const one = nothing();
       pieces.forEach((piece, i) => add(one, piece, name(`${entity.layer} ${entity.handle}${pieces.length > 1 ? `/${i + 1}` : ''}`, mark), size, mm));
       found.members.push(...one.members);
       found.others.push(...one.others);
+      if ('kind' in size) sided.add(entity.layer);
     } catch (failure) {
       if (!(failure instanceof Trouble)) throw failure;
+      if (failure instanceof Cornerless) cornerless.set(failure.message, (cornerless.get(failure.message) ?? 0) + 1);
       found.notUnderstood.push({id: mark, type: entity.type, reason: failure.message});
     }
   }
+  for (const [text, count] of cornerless) found.asks.push({option: 'corner', count, likely: [...standards], text});
+  for (const layer of sided)
+    found.notUnderstood.push({id: `layer ${layer}`, type: 'DXF', reason: `assumed: a line does not show how a tube is turned: ${usually}`});
 }
 
 /** Lines, polylines and arcs of a drawing as centre-lines; each layer's tubes are of one size. */

@@ -1,5 +1,6 @@
 import {limits} from './limits.js';
 import {cross, distance, dot, length, minus, times, unit, type Vector} from './geometry.js';
+import type {Section} from './sections.js';
 
 /**
  * The result of all importers: a request of POST /v1/frames and the items of the file that are not
@@ -14,7 +15,10 @@ export interface Imported {
   sources: Source[];
 }
 
-/** `id` as the file counts: #12 of IFC, "line 12" of PCF, "row 12" of CSV, "handle 2F" of DXF. */
+/**
+ * `id` as the file counts: #12 of IFC, "line 12" of PCF, "row 12" of CSV, "handle 2F" of DXF. A reason that begins with
+ * "assumed" is of something that is in the frame, by a value that the file does not state.
+ */
 export interface NotUnderstood {
   id: string;
   type: string;
@@ -28,7 +32,7 @@ export interface NotUnderstood {
  * first: no value is assumed.
  */
 export interface Ask {
-  option: 'bore' | 'schedule' | 'unit' | 'nodes' | 'decimal' | 'column';
+  option: 'bore' | 'schedule' | 'unit' | 'nodes' | 'decimal' | 'column' | 'corner';
   key?: string;
   count: number;
   likely: string[];
@@ -46,7 +50,15 @@ export interface Source {
 /** By millimetres, or by a name that GET /v1/tubes lists. */
 export type Size = {outer_diameter_mm: number; wall_mm: number} | {size: string};
 
-export type Member = {id: string; start_mm: Vector; end_mm: Vector; priority?: number} & Size;
+interface Run {
+  id: string;
+  start_mm: Vector;
+  end_mm: Vector;
+  priority?: number;
+}
+export type Round = Run & Size;
+/** A round tube, or one of another section, whose height lies along `up`. */
+export type Member = Round | (Run & Section & {up: Vector});
 
 export interface Axis {
   point_mm: Vector;
@@ -90,11 +102,11 @@ export interface FrameOptions {
 
 /**
  * The result of a reader. An other's length is its extent along its axis, which the request does
- * not contain; `from` is its entity.
+ * not contain; `from` is its entity, `why` the reason for which a rectangular tube is no member.
  */
 export interface Found {
   members: Member[];
-  others: {other: Other; length_mm?: number; from?: {id: string; type: string; guid?: string}}[];
+  others: {other: Other; length_mm?: number; from?: {id: string; type: string; guid?: string}; why?: string}[];
   joints: Joint[];
   notUnderstood: NotUnderstood[];
   asks: Ask[];
@@ -194,18 +206,19 @@ function withOthers(found: Found, within: number): Joint[] {
   return joints;
 }
 
-const sized = (m: Member): string => ('size' in m ? m.size : `${m.outer_diameter_mm} x ${m.wall_mm}`);
+const sized = (m: Size): string => ('size' in m ? m.size : `${m.outer_diameter_mm} x ${m.wall_mm}`);
 const near = 1e-3; // mm, rad: of ends that meet in line
 const crowd = 64; // ends at one place: no node has more
 
 /**
- * Ends of equal tubes that meet in line are face to face: by only nearness they would be reported
- * as parallel.
+ * Ends of equal round tubes that meet in line are face to face: by only nearness they would be
+ * reported as parallel. Of other sections the service knows which way they are turned.
  */
 function inLine(members: Member[]): Joint[] {
-  const cells = new Map<string, [Member, Vector, Vector][]>();
+  const round = members.filter((each): each is Round => !('kind' in each));
+  const cells = new Map<string, [Round, Vector, Vector][]>();
   const joints = new Map<string, Joint>();
-  for (const member of members)
+  for (const member of round)
     for (const [, at, run] of ends(member)) {
       const key = at.map((v) => Math.round(v / 10)).join();
       for (const [other, point, way] of cells.get(key) ?? []) {
@@ -236,16 +249,21 @@ function moved({members, others, ...rest}: Found, origin: Vector): Found {
   };
 }
 
-/** A rectangular tube is sent if a round one ends at it: no others can be cut by it. */
+/**
+ * A rectangular tube that is no member is sent if a tube ends at it, because it cuts nothing else. It is listed in any
+ * case, because it is not made.
+ */
 function boxesTouched(found: Found, joints: Joint[]): {others: Found['others']; rest: NotUnderstood[]} {
   const joined = new Set(joints.flatMap(({between}) => between));
   const rest: NotUnderstood[] = [];
-  const others = found.others.filter(({other, from}) => {
-    if (other.kind !== 'rectangular_tube' || joined.has(other.id)) return true;
+  const others = found.others.filter(({other, from, why}) => {
+    if (other.kind !== 'rectangular_tube') return true;
+    const touched = joined.has(other.id);
     const size = `${exact(other.width_mm)} x ${exact(other.height_mm)} mm`;
-    const reason = `a rectangular tube of ${size}, named ${other.id}: it is not in the frame because no round tube ends at it`;
+    const as = touched ? 'it only cuts the tubes that end at it, and is no member' : 'it is not in the frame';
+    const reason = `a rectangular tube of ${size}, named ${other.id}: ${as}, because ${why ?? 'it is no member'}`;
     rest.push({id: from?.id ?? other.id, type: from?.type ?? 'rectangular_tube', reason, ...(from?.guid === undefined ? {} : {guid: from.guid})});
-    return false;
+    return touched;
   });
   return {others, rest};
 }
@@ -282,7 +300,7 @@ function empty({notUnderstood, asks, sources}: Found, rest: NotUnderstood[], for
   const all = [...notUnderstood, ...rest];
   if (!all.some(({id}) => id === 'file')) {
     const square = rest.length > 0 ? `; it has ${rest.length} rectangular ${rest.length === 1 ? 'tube' : 'tubes'}` : '';
-    const reason = `there is no frame because the file has no round tube that can be read${square}`;
+    const reason = `there is no frame because the file has no tube that can be read as a member${square}`;
     all.push({id: 'file', type: format, reason});
   }
   return {frame: null, notUnderstood: listed(all), asks, sources};
@@ -300,7 +318,8 @@ function tooMany({notUnderstood, asks, sources}: Found): Imported {
 const farthest = 1e9;
 const isPoint = (p: Vector): boolean => p.every((v) => Math.abs(v) <= farthest);
 const isLength = (v: number): boolean => v > 0 && v <= farthest;
-const isMember = (m: Member): boolean => isPoint(m.start_mm) && isPoint(m.end_mm) && ('size' in m || (isLength(m.outer_diameter_mm) && isLength(m.wall_mm)));
+const lengthsOf = (m: Member): number[] => ('kind' in m ? [m.height_mm, m.width_mm, m.wall_mm] : 'size' in m ? [] : [m.outer_diameter_mm, m.wall_mm]);
+const isMember = (m: Member): boolean => isPoint(m.start_mm) && isPoint(m.end_mm) && lengthsOf(m).every(isLength);
 
 function isOther(other: Other): boolean {
   if (other.kind === 'plane') return isPoint(other.point_mm);

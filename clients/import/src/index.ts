@@ -16,5 +16,6 @@ export {
   type Source,
 } from './frame.js';
 export {fromIfc, type IfcOptions} from './ifc/index.js';
+export {type CornerOptions, type Corners, type Section, type Sides, type Standard, standards} from './sections.js';
 export {fromPcf, type PcfOptions} from './pcf/index.js';
 export {lengths, type LengthUnit} from './units.js';

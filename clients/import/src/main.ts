@@ -3,18 +3,34 @@
 import {readFileSync, writeFileSync} from 'node:fs';
 import {extname} from 'node:path';
 import {parseArgs} from 'node:util';
-import {boreMap, fields, fromCsv, fromDxf, fromIfc, fromPcf, type Imported, lengths, type LengthUnit, printed, type Size} from './index.js';
+import {
+  boreMap,
+  type CornerOptions,
+  fields,
+  fromCsv,
+  fromDxf,
+  fromIfc,
+  fromPcf,
+  type Imported,
+  lengths,
+  type LengthUnit,
+  printed,
+  type Size,
+  standards,
+} from './index.js';
 
 const usage = `usage: node dist/main.js FILE [options] > frame.json
 
-FILE is .ifc, .pcf, .csv, .tsv, .txt (a table) or .dxf. Items that are not in the frame go to the standard error, one per line.
+FILE is .ifc, .pcf, .csv, .tsv, .txt (a table) or .dxf. Items that are not in the frame, and assumptions, go to the standard error,
+one per line.
 
   --within MM          an end joins bodies within this distance (5)
   --origin X,Y,Z       this point of the file, in mm, is the frame's origin; the service takes 1 km about it
   --merge-in-line      members that continue in line become one piece
   --fields JSON        fields of the request instead of ours, for example {"kerf_mm": 2}
   --sources FILE       writes a CSV of the ids of the frame with their entities and GUIDs
-  --corner MM          IFC: corner radius of rectangular tubes that the file draws sharp; without it they are listed
+  --corner CORNER      IFC, CSV, DXF: corners of rectangular tubes that the file does not state or draws too sharp to be cut:
+                       en_10219 (cold formed), en_10210 (hot finished), astm_a500, or the radius outside in mm
   --schedule NAME      PCF: of pipes whose wall the file does not state, for example "SCH 40"
   --bore BORE=SIZE     PCF: meaning of a bore: "152.4=NPS 6", "160=DN 150", "168=168.3" (outside diameter in mm), "168=168.3x7.11"
   --wall-attribute A   PCF: the attribute that states a wall (WALL-THICKNESS)
@@ -22,10 +38,10 @@ FILE is .ifc, .pcf, .csv, .tsv, .txt (a table) or .dxf. Items that are not in th
   --column FIELD=NAME  CSV: the column of a field (${fields.join(', ')})
   --nodes FILE         CSV: the table of nodes, if it is not in the same file (columns node, x, y, z)
   --decimal MARK       CSV: comma or point, if the numbers leave it open
-  --size SIZE          CSV: of rows without their own, "114.3x6.3" (mm) or "NPS 4 SCH 40"
+  --size SIZE          CSV: of rows without their own, "114.3x6.3" (mm), "NPS 4 SCH 40" or "RHS 60x40x3 EN 10219"
   --layer NAME=SIZE    DXF: the size of a layer's tubes; the other layers are listed
 
-ends with 0, 1 (no frame could be made), 2 (wrong usage), 3 (a frame, and something is not in it),
+ends with 0, 1 (no frame could be made), 2 (wrong usage), 3 (a frame, and something is not in it or was assumed),
 4 (options are missing: the last lines state which; the standard output has the part that could be read without them)
 `;
 
@@ -111,6 +127,15 @@ function decimalOf(text: string | undefined): {decimal?: '.' | ','} {
   return {decimal: text === 'comma' ? ',' : '.'};
 }
 
+function cornerOf(text: string | undefined): CornerOptions {
+  if (text === undefined) return {};
+  const corners = standards.find((each) => each === text);
+  if (corners) return {corners};
+  const corner_radius_mm = Number(text);
+  if (!(corner_radius_mm > 0)) throw new Usage(`--corner is one of ${standards.join(', ')}, or a number of mm, more than 0`);
+  return {corner_radius_mm};
+}
+
 const quoted = (cell: string): string => (/[",\n]/.test(cell) ? `"${cell.replace(/"/g, '""')}"` : cell);
 const table = ({sources}: Imported): string =>
   [['id', 'entity', 'type', 'guid'], ...sources.map(({id, entity, type, guid}) => [id, entity, type, guid ?? ''])]
@@ -120,7 +145,9 @@ const table = ({sources}: Imported): string =>
 /** The options that are missing, as they would be written. */
 function missing({asks}: Imported): string[] {
   const bores = asks.filter(({option}) => option === 'bore').map(({key, likely}) => `--bore "${key}=${likely[0] ?? 'SIZE'}"`);
-  const others = [...new Set(asks.filter(({option}) => option !== 'bore').map(({option}) => `--${option}`))];
+  const others = [
+    ...new Set(asks.filter(({option}) => option !== 'bore').map(({option, likely}) => `--${option}${option === 'corner' ? ` ${likely[0]}` : ''}`)),
+  ];
   return asks.length === 0 ? [] : [`Options are missing. Check the likely values, then state: ${[...bores, ...others].join(' ')}`];
 }
 
@@ -128,9 +155,9 @@ async function imported(): Promise<Imported> {
   const {values, positionals} = asked();
   const [file, ...rest] = positionals;
   if (file === undefined || rest.length > 0) throw new Usage('one FILE');
-  const [within, corner] = [values.within, values.corner].map((each) => (each === undefined ? undefined : Number(each)));
+  const within = values.within === undefined ? undefined : Number(values.within);
   if (within !== undefined && !(within >= 0)) throw new Usage('--within is a number of mm');
-  if (corner !== undefined && !(corner > 0)) throw new Usage('--corner is a number of mm, more than 0');
+  const corner = cornerOf(values.corner);
   const common = {
     ...(within === undefined ? {} : {within_mm: within}),
     ...(values.origin === undefined ? {} : {origin_mm: originOf(values.origin)}),
@@ -143,15 +170,15 @@ async function imported(): Promise<Imported> {
   const unit = unitOf(values.unit);
   const {schedule, 'wall-attribute': wallAttribute, size, nodes} = values;
   const [bores, mark] = [boresOf(values.bore), decimalOf(values.decimal)];
-  const ofTables = {...unit, ...mark, columns, ...(size ? {size: sizeOf(size)} : {})};
+  const ofTables = {...unit, ...mark, ...corner, columns, ...(size ? {size: sizeOf(size)} : {})};
   const csv = (bytes: Buffer) => fromCsv(bytes.toString(), {...common, ...ofTables, ...(nodes === undefined ? {} : {nodes: readFileSync(nodes, 'utf8')})});
   const readers: Record<string, (bytes: Buffer) => Imported | Promise<Imported>> = {
-    '.ifc': (bytes) => fromIfc(bytes, {...common, ...(corner === undefined ? {} : {corner_radius_mm: corner})}),
+    '.ifc': (bytes) => fromIfc(bytes, {...common, ...corner}),
     '.pcf': (bytes) => fromPcf(bytes.toString(), {...common, ...(schedule ? {schedule} : {}), ...bores, ...(wallAttribute ? {wallAttribute} : {})}),
     '.csv': csv,
     '.tsv': csv,
     '.txt': csv,
-    '.dxf': (bytes) => fromDxf(bytes.toString(), layers, {...common, ...unit}),
+    '.dxf': (bytes) => fromDxf(bytes.toString(), layers, {...common, ...unit, ...corner}),
   };
   const reader = readers[extname(file).toLowerCase()];
   if (!reader) throw new Usage(`${file} is none of ${Object.keys(readers).join(', ')}`);

@@ -61,20 +61,32 @@ test('a structural member is a tube', async () => {
   assert.equal((await asked(frame)).count, 1);
 });
 
-test('a file of rectangular tubes only gives the list, and states it', () => {
+test('a file of rectangular tubes only is a frame', async () => {
   const {status, stdout, stderr} = run('ifc_only_rectangular.ifc');
-  assert.deepEqual([status, stdout], [1, '']);
-  assert.match(stderr, /#20 IfcColumn: a rectangular tube of 100 x 200 mm, named C1/);
-  assert.match(stderr, /no round tube that can be read; it has 1 rectangular tube\n/);
+  assert.deepEqual([status, stderr], [0, '']);
+  const frame = JSON.parse(stdout);
+  assert.deepEqual(frame.members, [{id: 'C1', start_mm: [0, 0, 0], end_mm: [0, 0, 3000], kind: 'rectangular_tube', height_mm: 200, width_mm: 100, wall_mm: 6.3,
+    corner_radius_mm: 12.6, inner_corner_radius_mm: 6.3, up: [0, 1, 0]}]);
+  const {result, verdict} = await asked(frame);
+  assert.equal(verdict.status, 'ok');
+  assert.deepEqual(result.cut_list.map(({members, height_mm, width_mm, wall_mm, long_mm}) => [members, height_mm, width_mm, wall_mm, long_mm]), [[['C1'], 200, 100, 6.3, 3000]]);
 });
 
-test('profiles with voids: the round tube is in the frame, the square one in the list', async () => {
-  for (const [options, reason] of [[{}, /sharp corners/], [{corner_radius_mm: 6}, /rectangular tube of 100 x 100 mm.*no round tube ends at it/]]) {
+test('profiles with voids: the round tube is in the frame, the corners of the square one are requested', async () => {
+  const {status, stderr} = run('ifc_shs_as_profile_with_voids.ifc');
+  assert.equal(status, 4);
+  assert.match(stderr, /^#47 IfcColumn: .*sharp corners.*\n.*1 rectangular tube has corners.*\n.*state: --corner en_10219\n$/);
+  const round = {id: 'C1', start_mm: [0, 0, 0], end_mm: [0, 0, 3000], size: 'CHS 114.3x6.3'};
+  const shs = {id: 'C2', start_mm: [2000, 0, 0], end_mm: [2000, 0, 3000], kind: 'rectangular_tube', height_mm: 100, width_mm: 100, wall_mm: 6};
+  const all = async (options) => {
     const {frame, notUnderstood} = await fromIfc(readFileSync(at('ifc_shs_as_profile_with_voids.ifc')), options);
-    assert.deepEqual(frame.members, [{id: 'C1', start_mm: [0, 0, 0], end_mm: [0, 0, 3000], size: 'CHS 114.3x6.3'}]);
-    assert.deepEqual(notUnderstood.map(({id, guid}) => [id, guid]), [['#47', '0000000000000000000004']]);
-    assert.match(notUnderstood[0].reason, reason);
-  }
+    assert.equal((await asked(frame)).count, frame.members.length);
+    return [frame.members, notUnderstood.map(({id, guid, reason}) => [id, guid, /too sharp to be cut in a wall of 6 mm|sharp corners|state --corner/.exec(reason)?.[0]])];
+  };
+  const listed = (reason) => ['#47', '0000000000000000000004', reason];
+  assert.deepEqual(await all({}), [[round], [listed('sharp corners'), ['file', undefined, 'state --corner']]]);
+  assert.deepEqual(await all({corner_radius_mm: 6}), [[round], [listed('too sharp to be cut in a wall of 6 mm')]]);
+  for (const corners of [{corner_radius_mm: 9}, {corners: 'en_10210'}]) assert.deepEqual(await all(corners), [[round, {...shs, ...corners, up: [0, 1, 0]}], []]);
 });
 
 test('members by node numbers need the table of nodes, and no more', async () => {

@@ -20,11 +20,16 @@ function faults({frame, notUnderstood}, {members, others, joints = []}) {
   if (!frame) return [...out, 'no frame'];
   const wrong = (what, ok) => ok || out.push(what);
   wrong(`${frame.members.length} members`, frame.members.length === members.length);
-  for (const {id, ends: [start, end], outer, wall} of members) {
+  for (const {id, ends: [start, end], outer, wall, section, up} of members) {
     const found = frame.members.find((each) => each.id === id);
     if (!found) { out.push(`no ${id}`); continue; }
     wrong(`${id} starts ${apart(found.start_mm, start)} mm off`, apart(found.start_mm, start) <= 1e-6);
     wrong(`${id} ends ${apart(found.end_mm, end)} mm off`, apart(found.end_mm, end) <= 1e-6);
+    if (section) {
+      for (const [key, value] of Object.entries(section)) wrong(`${id} ${key} ${found[key]}`, Math.abs(found[key] - value) < 1e-8);
+      wrong(`${id} is turned`, found.kind === 'rectangular_tube' && apart(found.up, up) <= 1e-8);
+      continue;
+    }
     const is = measured(found);
     wrong(`${id} is ${is.outer_diameter_mm} x ${is.wall_mm}`, Math.abs(is.outer_diameter_mm - outer) < 1e-9 && Math.abs(is.wall_mm - wall) < 1e-9);
   }
@@ -118,21 +123,31 @@ const spoils = {
 for (const [name, [edit, reason]] of Object.entries(spoils))
   test(`listed, and nothing else: ${name}`, async () => {
     const {text, id} = spoilt(edit);
-    const {frame, notUnderstood} = await read(text);
+    const {frame, notUnderstood, asks} = await read(text);
     assert.deepEqual(frame.members.map((member) => member.id), ['A', 'B', 'C']);
-    assert.equal(notUnderstood.length, 1, JSON.stringify(notUnderstood));
+    assert.equal(notUnderstood.filter((each) => each.id !== 'file').length, 1, JSON.stringify(notUnderstood));
     assert.equal(notUnderstood[0].id, id);
     assert.match(notUnderstood[0].reason, reason);
     assert.ok(notUnderstood[0].type.startsWith('Ifc'), notUnderstood[0].type);
+    assert.deepEqual(asks.map(({option, count}) => [option, count]), /corners/.test(name) ? [['corner', 1]] : []);
   });
 
 test('corners that are drawn sharp are as the caller says', async () => {
-  const {text} = spoilt(spoils['a square tube with sharp corners'][0]);
-  const {frame, notUnderstood} = await read(text, {corner_radius_mm: 7.5});
-  assert.deepEqual(notUnderstood, []);
-  assert.deepEqual(frame.others.map(({id, width_mm, corner_radius_mm}) => [id, width_mm, corner_radius_mm]), [['X', 100, 7.5]]);
+  const {text, id} = spoilt(spoils['a square tube with sharp corners'][0]);
+  for (const corners of [{corner_radius_mm: 7.5}, {corners: 'en_10219'}]) {
+    const {frame, notUnderstood} = await read(text, corners);
+    assert.deepEqual([notUnderstood, frame.others], [[], undefined]);
+    const {start_mm, end_mm, up, ...rest} = frame.members.find((each) => each.id === 'X');
+    assert.deepEqual(rest, {id: 'X', kind: 'rectangular_tube', height_mm: 100, width_mm: 100, wall_mm: 5, ...corners});
+    assert.ok(apart(start_mm, [0, 0, 0]) < 1e-9 && apart(end_mm, [1000, 0, 0]) < 1e-9 && apart(up, [0, 1, 0]) < 1e-9);
+  }
+  // Too sharp for the wall: it cuts the tube that ends at it, as before there were such members.
+  const small = await read(text, {corner_radius_mm: 5});
+  assert.deepEqual(small.frame.others.map(({id: name, corner_radius_mm}) => [name, corner_radius_mm]), [['X', 5]]);
+  assert.deepEqual(small.notUnderstood.map((each) => each.id), [id]);
+  assert.match(small.notUnderstood[0].reason, /only cuts the tubes that end at it, and is no member, because corners of 5 mm are too sharp to be cut in a wall of 5 mm/);
   const own = models.find(({name}) => name === 'bend and box metre IFC2X3');
-  assert.deepEqual(faults(await read(own.text, {corner_radius_mm: 3}), own), [], 'a radius of its own stays');
+  assert.deepEqual(faults(await read(own.text, {corner_radius_mm: 8}), own), [], 'a radius of its own stays');
 });
 
 test('a cut tube is imported whole, and its cut is listed', async () => {

@@ -84,7 +84,7 @@ test('the command line: the frame, what was not understood, how it ended', () =>
     assert.deepEqual(JSON.parse(csv.stdout).members, [{id: 'A', start_mm: [0, 0, 0], end_mm: [1000, 0, 0], outer_diameter_mm: 60.3, wall_mm: 3.91}]);
     assert.equal(run(file('b.ifc', 'no model')).status, 1);
     assert.equal(run(join(folder, 'missing.csv')).status, 1);
-    for (const wrong of [[], ['a.doc'], ['a.csv', 'b.csv'], ['a.pcf', '--bore', '152.4=big'], ['a.csv', '--decimal', 'x'], ['a.csv', '--unit', 'mile'], ['a.csv', '--column', 'x=y'], ['a.csv', '--nothing'], ['a.csv', '--fields', '3'], ['a.csv', '--origin', '1,2'], ['a.csv', '--origin', '1,,2'], ['a.csv', '--within', '-1'], ['a.csv', '--corner', '0']]) {
+    for (const wrong of [[], ['a.doc'], ['a.csv', 'b.csv'], ['a.pcf', '--bore', '152.4=big'], ['a.csv', '--decimal', 'x'], ['a.csv', '--unit', 'mile'], ['a.csv', '--column', 'x=y'], ['a.csv', '--nothing'], ['a.csv', '--fields', '3'], ['a.csv', '--origin', '1,2'], ['a.csv', '--origin', '1,,2'], ['a.csv', '--within', '-1'], ['a.csv', '--corner', '0'], ['a.csv', '--corner', 'en_10218']]) {
       const {status, stderr} = run(...wrong);
       assert.equal(status, 2, wrong.join(' '));
       assert.match(stderr, /usage: /);

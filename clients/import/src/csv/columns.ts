@@ -20,6 +20,15 @@ export const fields = [
   'wall',
   'size',
   'priority',
+  'kind',
+  'height',
+  'width',
+  'corner_radius',
+  'inner_corner_radius',
+  'corners',
+  'up_x',
+  'up_y',
+  'up_z',
 ] as const;
 export type Field = (typeof fields)[number];
 export const nodeFields = ['node', 'x', 'y', 'z'] as const;
@@ -48,6 +57,15 @@ const headings: Record<Field, string[]> = {
   wall: ['wall', 'wall_thickness', 'thickness', 't', 'wt', 'thk', 'wand', 'wanddicke', 'wandstaerke'],
   size: ['size', 'section', 'profile', 'cross_section', 'section_name', 'querschnitt', 'profil'],
   priority: ['priority'],
+  kind: ['kind', 'section_kind', 'section_type', 'tube_kind'],
+  height: ['height', 'h', 'depth', 'section_height', 'hoehe', 'höhe'],
+  width: ['width', 'b', 'w', 'breadth', 'section_width', 'breite'],
+  corner_radius: ['corner_radius', 'outer_corner_radius', 'corner_r', 'ro', 'r_o', 'eckradius'],
+  inner_corner_radius: ['inner_corner_radius', 'ri', 'r_i'],
+  corners: ['corners', 'corner_standard', 'section_standard'],
+  up_x: axis(['up'], 'x'),
+  up_y: axis(['up'], 'y'),
+  up_z: axis(['up'], 'z'),
 };
 const nodeHeadings: Record<NodeField, string[]> = {
   node: ['node', 'joint', 'point', 'id', 'node_id', 'joint_id', 'name', 'label', 'number', 'no', 'nr', 'node_no', 'knoten'],

@@ -1,15 +1,16 @@
-import {sizeNamed} from '../catalogue.js';
 import {clean, exact, type Found, type FrameOptions, frameOf, full, type Imported, type Member, names, nothing, rounded, type Size} from '../frame.js';
-import {distance, type Vector} from '../geometry.js';
+import {cross, distance, length, minus, unit, type Vector} from '../geometry.js';
+import {type CornerOptions, cornersToState, standards, usually, usualUp} from '../sections.js';
 import {decimal, type LengthUnit} from '../units.js';
-import {examples, type Field, fields} from './columns.js';
+import {examples, type Field} from './columns.js';
 import {Nodes} from './nodes.js';
-import {lengthSaid, type Mark, markOf, numberSaid, Trouble} from './numbers.js';
+import {type Mark, markOf, numberSaid, Trouble} from './numbers.js';
+import {Cornerless, lengthFields, lengthIn, Missing, numberFields, type Reading, sizeIn, sizesMissing, upFields} from './sizes.js';
 import {cellsOf, membersTable, nodeTables, type Row, rowsOf, type Table, unitIn} from './tables.js';
 
 export {type Field, fields} from './columns.js';
 
-export interface CsvMapping extends FrameOptions {
+export interface CsvMapping extends FrameOptions, CornerOptions {
   /** Which column, by its heading, states a field. Without an entry it is found by the usual headings. */
   columns?: Partial<Record<Field, string>>;
   /** Of lengths whose column states no unit; default mm. */
@@ -25,13 +26,6 @@ export interface CsvMapping extends FrameOptions {
   decimal?: Mark;
 }
 
-/** Fields whose columns are missing. */
-class Missing extends Error {
-  constructor(readonly fields: Field[]) {
-    super();
-  }
-}
-
 /** Returns the columns as read without a mapping: the start for a mapper. */
 export function columnsOf(text: string): {headings: string[]; columns: Partial<Record<Field, string>>; nodes: boolean} {
   const rows = rowsOf(text);
@@ -39,49 +33,7 @@ export function columnsOf(text: string): {headings: string[]; columns: Partial<R
   return {headings, columns, nodes: nodeTables(rows).length > 0};
 }
 
-const lengthFields = fields.filter((field) => /_[xyz]$|diameter|radius|wall/.test(field));
 const axes = ['x', 'y', 'z'] as const;
-
-interface Reading {
-  table: Table<Field>;
-  cells: (row: Row, field: Field) => string | undefined;
-  nodes: Nodes;
-  mark: Mark;
-  mapping: CsvMapping;
-}
-
-function lengthIn({table, cells, mapping, mark}: Reading, row: Row, field: Field): number {
-  const said = cells(row, field);
-  if (said === undefined) throw new Trouble(`it has no ${field}`);
-  return lengthSaid(said, field, unitIn(table, field) ?? mapping.unit ?? 'mm', mark);
-}
-
-/** "114.3x6.3", in mm, with or without a word before it, or a listed name. */
-function sizeSaid(said: string, mark: Mark): Size {
-  const listed = sizeNamed(said.slice(0, 64));
-  if (listed) return {size: listed.name};
-  const [, outer, wall] = /^(?:[A-Za-zØ⌀]{0,6} ?)(\d[\d.,]{0,12}) ?[xX×*] ?(\d[\d.,]{0,12})(?: ?mm)?$/.exec(said.slice(0, 64)) ?? [];
-  const [outer_diameter_mm, wall_mm] = [outer, wall].map((each) => numberSaid(each ?? '', mark)) as [number, number];
-  if (!(outer_diameter_mm > 0 && wall_mm > 0 && wall_mm < outer_diameter_mm / 2))
-    throw new Trouble(`its size is not one that GET /v1/tubes lists: ${clean(said.slice(0, 64))}`);
-  return {outer_diameter_mm, wall_mm};
-}
-
-function sizeIn(reading: Reading, row: Row): Size {
-  const {cells, mapping, mark, table} = reading;
-  const size = cells(row, 'size');
-  if (size !== undefined) return sizeSaid(size, mark);
-  const given = (['outer_diameter', 'radius', 'wall'] as const).filter((field) => cells(row, field) !== undefined);
-  if (given.length === 0 && mapping.size) return mapping.size;
-  const has = (field: Field) => table.columns[field] !== undefined;
-  const missing: Field[] = [...(has('outer_diameter') || has('radius') ? [] : ['outer_diameter' as const]), ...(has('wall') ? [] : ['wall' as const])];
-  if (missing.length > 0) throw new Missing(missing);
-  const byRadius = cells(row, 'outer_diameter') === undefined && (cells(row, 'radius') !== undefined || !has('outer_diameter'));
-  const outer = byRadius ? 2 * lengthIn(reading, row, 'radius') : lengthIn(reading, row, 'outer_diameter');
-  const wall = lengthIn(reading, row, 'wall');
-  if (!(outer > 0 && wall > 0 && wall < outer / 2)) throw new Trouble(`a wall of ${exact(wall)} mm does not go with ${exact(outer)} mm outside`);
-  return {outer_diameter_mm: exact(outer), wall_mm: exact(wall)};
-}
 
 /** By its coordinates, or by the node that it names. */
 function pointIn(reading: Reading, row: Row, end: 'start' | 'end'): Vector {
@@ -108,30 +60,39 @@ function pointsMissing({table}: Reading): Field[] {
 }
 
 /** Columns that no row can do without; those of sizes only if each row needs them. */
-function columnsMissing(reading: Reading): Field[] {
-  const {table, mapping} = reading;
-  const has = (field: Field) => table.columns[field] !== undefined;
-  const sizes: Field[] =
-    has('size') || mapping.size
-      ? []
-      : [...(has('outer_diameter') || has('radius') ? [] : ['outer_diameter' as const]), ...(has('wall') ? [] : ['wall' as const])];
-  return [...pointsMissing(reading), ...sizes];
+const columnsMissing = (reading: Reading): Field[] => [...pointsMissing(reading), ...sizesMissing(reading)];
+
+/** Where the section's height lies; undefined if the row does not state it. */
+function upIn({cells, mark}: Reading, row: Row, run: Vector): Vector | undefined {
+  const said = upFields.map((field) => cells(row, field));
+  if (said.every((each) => each === undefined)) return undefined;
+  const up = said.map((each) => numberSaid(each ?? '', mark)) as Vector;
+  const across = unit(up) && unit(run) && cross(unit(up) as Vector, unit(run) as Vector);
+  if (!up.every(Number.isFinite) || !across) throw new Trouble('its up_x, up_y and up_z are no direction');
+  if (length(across) < 1e-6) throw new Trouble('its up lies along it');
+  return rounded(unit(up) as Vector);
 }
 
-function memberOf(reading: Reading, row: Row): Omit<Member, 'id'> {
+/** Without `up` if it needs one and the row has none. */
+function memberOf(reading: Reading, row: Row): Omit<Member, 'id'> & {up?: Vector} {
   const [start_mm, end_mm] = [pointIn(reading, row, 'start'), pointIn(reading, row, 'end')];
   if (distance(start_mm, end_mm) === 0) throw new Trouble('it has no length');
   const said = reading.cells(row, 'priority');
   const priority = said === undefined ? undefined : decimal(said);
   if (priority !== undefined && !Number.isInteger(priority)) throw new Trouble(`its priority is no number: ${clean((said ?? '').slice(0, 80))}`);
-  return {start_mm, end_mm, ...sizeIn(reading, row), ...(priority === undefined ? {} : {priority})};
+  const size = sizeIn(reading, row);
+  const up = 'kind' in size ? upIn(reading, row, minus(end_mm, start_mm)) : undefined;
+  return {start_mm, end_mm, ...size, ...(up && {up}), ...(priority === undefined ? {} : {priority})};
 }
 
-const rowsNamed = (rows: number[]): string => `${rows.slice(0, 5).join(', ')}${rows.length > 5 ? ` and ${rows.length - 5} more` : ''}`;
+const runOf = ({start_mm, end_mm}: Omit<Member, 'id'>): Vector => minus(end_mm, start_mm);
+const rowsNamed = (rows: number[]): string =>
+  `${rows.length === 1 ? 'row' : 'rows'} ${rows.slice(0, 5).join(', ')}${rows.length > 5 ? ` and ${rows.length - 5} more` : ''}`;
 
 function readRows(reading: Reading, found: Found): void {
   const name = names();
   const missing = new Map<Field, number[]>();
+  const [cornerless, lyingAsUsual]: [number[], number[]] = [[], []];
   const never = columnsMissing(reading);
   for (const field of never)
     missing.set(
@@ -142,7 +103,9 @@ function readRows(reading: Reading, found: Found): void {
     if (full(found)) return;
     try {
       const member = memberOf(reading, row);
-      found.members.push({id: name(reading.cells(row, 'id'), `row ${row.number}`), ...member} as Member);
+      const lying = 'kind' in member && member.up === undefined;
+      if (lying) lyingAsUsual.push(row.number);
+      found.members.push({id: name(reading.cells(row, 'id'), `row ${row.number}`), ...member, ...(lying && {up: usualUp(runOf(member))})} as Member);
     } catch (failure) {
       if (failure instanceof Missing)
         for (const field of failure.fields) {
@@ -150,13 +113,20 @@ function readRows(reading: Reading, found: Found): void {
           rows.push(row.number);
           missing.set(field, rows);
         }
+      else if (failure instanceof Cornerless) cornerless.push(row.number);
       else if (failure instanceof Trouble) found.notUnderstood.push({id: `row ${row.number}`, type: 'CSV', reason: failure.message});
       else throw failure;
     }
   }
   for (const [field, rows] of missing) {
-    const reason = `there is no column for ${field} (such as ${examples(field)}): ${rows.length === 1 ? 'row' : 'rows'} ${rowsNamed(rows)} cannot be read`;
+    const reason = `there is no column for ${field} (such as ${examples(field)}): ${rowsNamed(rows)} cannot be read`;
     found.notUnderstood.push({id: 'file', type: 'CSV', reason});
+  }
+  if (lyingAsUsual.length > 0)
+    found.notUnderstood.push({id: 'file', type: 'CSV', reason: `assumed: no up_x, up_y and up_z for ${rowsNamed(lyingAsUsual)}: ${usually}`});
+  if (cornerless.length > 0) {
+    const text = `no corners are stated for the rectangular tubes of ${rowsNamed(cornerless)}: state --corner, ${cornersToState}`;
+    found.asks.push({option: 'corner', count: cornerless.length, likely: [...standards], text});
   }
 }
 
@@ -172,7 +142,9 @@ function asked(reading: Omit<Reading, 'mark'> & {mark: Mark | undefined}, found:
     ask('nodes', [], 'the members name nodes, and there is no table of nodes: state --nodes FILE, with the columns node, x, y and z');
   if (mapping.unit !== undefined) return;
   const units = [
-    ...lengthFields.filter((field) => table.columns[field] !== undefined).map((field) => unitIn(table, field)),
+    ...lengthFields(reading)
+      .filter((field) => table.columns[field] !== undefined)
+      .map((field) => unitIn(table, field)),
     ...(byNode ? nodes.tables.flatMap((each) => axes.map((axis) => unitIn(each, axis))) : []),
   ];
   const stated = [...new Set(units.filter((unit) => unit !== undefined && unit !== 'mm'))] as LengthUnit[];
@@ -182,10 +154,12 @@ function asked(reading: Omit<Reading, 'mark'> & {mark: Mark | undefined}, found:
 
 /** If tubes have less than 5 mm, the service does not accept them, so the numbers are not mm. */
 function tooThin({members, asks}: Found, mapping: CsvMapping, table: Table<Field>): boolean {
-  const outers = members.flatMap((member) => ('size' in member ? [] : [member.outer_diameter_mm]));
+  const outers = members.flatMap((member) => ('kind' in member ? [member.height_mm] : 'size' in member ? [] : [member.outer_diameter_mm]));
   const unstated =
     mapping.unit === undefined &&
-    (['outer_diameter', 'radius'] as const).every((field) => table.columns[field] === undefined || unitIn(table, field) === undefined);
+    (['outer_diameter', 'radius', ...(members.some((each) => 'kind' in each) ? (['height', 'width'] as const) : [])] as const).every(
+      (field) => table.columns[field] === undefined || unitIn(table, field) === undefined,
+    );
   if (!unstated || outers.length === 0 || outers.some((outer) => outer >= 5)) return false;
   const most = Math.max(...outers.slice(0, 1000));
   asks.push({
@@ -207,8 +181,9 @@ export function fromCsv(text: string, mapping: CsvMapping = {}): Imported {
   for (const [field, heading] of lost) found.notUnderstood.push({id: 'file', type: 'CSV', reason: `there is no column "${heading}" for ${field}`});
   if (lost.length > 0) return frameOf(found, mapping, 'CSV');
   const cells = cellsOf(table);
+  const counted = numberFields({table, cells, nodes, mapping});
   const numbers = [
-    ...table.rows.flatMap((row) => lengthFields.map((field) => cells(row, field) ?? '')),
+    ...table.rows.flatMap((row) => counted.map((field) => cells(row, field) ?? '')),
     ...nodes.tables.flatMap((each) => {
       const of = cellsOf(each);
       return each.rows.flatMap((row) => axes.map((axis) => of(row, axis) ?? ''));

@@ -73,7 +73,8 @@ export function membersTable(rows: Row[], given: Partial<Record<Field, string>> 
   const own = rows.findIndex(({cells}) => isMembers(cells));
   const top = byName >= 0 ? byName : own >= 0 ? own : rows.findIndex((row) => filled(row) && !isNodes(row.cells));
   const headings = rows[top]?.cells ?? [];
-  return table<Field>(rows, top, {...membersIn(headings), ...given}, isNodes);
+  const found = Object.entries(membersIn(headings)).filter(([, heading]) => !named.some((each) => each.trim() === heading.trim()));
+  return table<Field>(rows, top, {...Object.fromEntries(found), ...given}, isNodes);
 }
 
 export function nodeTables(rows: Row[]): Table<NodeField>[] {

@@ -3,6 +3,8 @@ import {sizeMeasuring} from '../catalogue.js';
 import {type Axis, exact, type Found, type FrameOptions, frameOf, full, type Imported, names, nothing, rounded, type Size} from '../frame.js';
 import {distance, type Matrix, minus, times, unit, type Vector} from '../geometry.js';
 import {limits} from '../limits.js';
+import {type CornerOptions, cornersStated, usually} from '../sections.js';
+import {Boxes, type Made, type Tube} from './boxes.js';
 import {type Line, Model, told, Trouble} from './model.js';
 import {inWorld} from './placement.js';
 import {normalised} from './normalise.js';
@@ -10,9 +12,7 @@ import {bodies, type Body, type Reading} from './solids.js';
 import {relations, structural} from './structure.js';
 import {millimetres, radians} from './units.js';
 
-export interface IfcOptions extends FrameOptions {
-  /** Of the corners of rectangular tubes that the file draws sharp, in mm: the service takes no sharp ones. */
-  corner_radius_mm?: number;
+export interface IfcOptions extends FrameOptions, CornerOptions {
   /** The address of web-ifc's WebAssembly; node finds it by itself. */
   wasm?: string;
 }
@@ -65,19 +65,26 @@ function sized(outer: number, wall: number): Size {
   return listed ? {size: listed.name} : {outer_diameter_mm: exact(outer), wall_mm: exact(wall)};
 }
 
-function add(found: Found, body: Body, id: string, mm: number, from: {id: string; type: string; guid?: string}): void {
+/** A rectangular tube as a member or, if its corners cannot be cut, as a body that cuts others. */
+function addBox(found: Found, body: Tube, id: string, mm: number, from: {id: string; type: string; guid?: string}, made: Made): void {
+  const [start_mm, end_mm, up] = [scaled(body.from, mm), scaled(body.to, mm), rounded(body.up)];
+  if ('section' in made) {
+    found.members.push({id, start_mm, end_mm, ...made.section, up});
+    return;
+  }
+  const {corner_radius_mm, why} = made;
+  const axis: Axis = {point_mm: start_mm, direction: rounded(unit(minus(body.to, body.from)) as Vector)};
+  const [width_mm, height_mm] = [exact(body.width * mm), exact(body.height * mm)];
+  const other = {kind: 'rectangular_tube' as const, id, width_mm, height_mm, corner_radius_mm, axis, up};
+  found.others.push({other, length_mm: distance(body.from, body.to) * mm, from, why});
+}
+
+function add(found: Found, body: Exclude<Body, Tube>, id: string, mm: number, from: {id: string; type: string; guid?: string}): void {
   if (body.kind === 'tube') {
     found.members.push({id, start_mm: scaled(body.from, mm), end_mm: scaled(body.to, mm), ...sized(body.outer * mm, body.wall * mm)});
     return;
   }
-  const way = body.kind === 'box' ? (unit(minus(body.to, body.from)) as Vector) : body.direction;
-  const axis: Axis = {point_mm: scaled(body.from, mm), direction: rounded(way)};
-  if (body.kind === 'box') {
-    const [width_mm, height_mm, corner_radius_mm] = [body.width, body.height, body.corner_radius].map((each) => exact(each * mm)) as [number, number, number];
-    const other = {kind: 'rectangular_tube' as const, id, width_mm, height_mm, corner_radius_mm, axis, up: rounded(body.up)};
-    found.others.push({other, length_mm: distance(body.from, body.to) * mm, from});
-    return;
-  }
+  const axis: Axis = {point_mm: scaled(body.from, mm), direction: rounded(body.direction)};
   const [outer_diameter_mm, bend_radius_mm] = [exact(body.outer * mm), exact(body.radius * mm)];
   const bend_deg = exact((body.angle * 180) / Math.PI);
   found.others.push({other: {kind: 'elbow', id, outer_diameter_mm, bend_radius_mm, bend_deg, axis, inwards: rounded(body.inwards)}, from});
@@ -98,22 +105,33 @@ const guidOf = (model: Model, product: Line): {guid?: string} => {
   return own === undefined ? {} : {guid: own};
 };
 
+interface Context extends Reading {
+  boxes: Boxes;
+}
+
+type Part = {body: Exclude<Body, Tube>} | {body: Tube; made: Made};
+
 /** One product: all of it or nothing, so that no half of it passes for the whole. */
-function put(context: Reading, product: Line, list: Body[], found: Found, name: ReturnType<typeof names>, mm: number): void {
-  const {model} = context;
+function put({model, boxes}: Context, product: Line, list: Body[], found: Found, name: ReturnType<typeof names>, mm: number): void {
+  const parts = list.map((body): Part => (body.kind === 'box' ? {body, made: boxes.made(body, mm)} : {body}));
   const called = nameOf(model, product);
   const from = {id: `#${product.id}`, type: product.type, ...guidOf(model, product)};
   let before = '';
-  list.forEach((body, i) => {
+  parts.forEach((part, i) => {
     const id = list.length === 1 ? name(called, `#${product.id}`) : name(called && `${called}/${i + 1}`, `#${product.id}/${i + 1}`);
-    add(found, body, id, mm, from);
+    const {body} = part;
+    if ('made' in part) {
+      addBox(found, part.body, id, mm, from, part.made);
+      found.notUnderstood.push(...boxes.note(part.body, part.made));
+      if (part.body.turned === false) found.notUnderstood.push({...from, reason: `assumed: ${told(product)} has no Axis: ${usually}`});
+    } else add(found, part.body, id, mm, from);
     found.sources.push({id, entity: from.id, type: from.type, ...guidOf(model, product)});
     if (body.kind === 'tube' && body.corner) found.joints.push({between: [before, id], kind: 'mitre'});
     before = id;
   });
 }
 
-function read(given: Reading, product: Line, found: Found, name: ReturnType<typeof names>, mm: number): void {
+function read(given: Context, product: Line, found: Found, name: ReturnType<typeof names>, mm: number): void {
   const context = {...given, notes: []};
   const {items, world} = shape(context.model, product);
   const list = bodies(context, items, world);
@@ -126,21 +144,26 @@ function read(given: Reading, product: Line, found: Found, name: ReturnType<type
 class File {
   readonly name = names();
   private readonly mm: number;
-  private readonly context: Reading;
+  private readonly context: Context;
   private readonly imported = new Set<number>();
 
   constructor(
     private readonly library: typeof WebIfc,
     private readonly model: Model,
     private readonly found: Found,
-    {corner_radius_mm}: IfcOptions,
+    options: IfcOptions,
   ) {
     const project = model.all(library.IFCPROJECT)[0];
     if (project === undefined) throw new Trouble('there is no IfcProject');
     this.mm = millimetres(model, model.line(project));
     const codes = {line: library.IFCLINEINDEX, arc: library.IFCARCINDEX};
-    const corner = corner_radius_mm === undefined ? undefined : corner_radius_mm / this.mm;
-    this.context = {model, radians: radians(model, model.line(project)), codes, corner, notes: [], budget: {steps: limits.steps}};
+    const boxes = new Boxes(cornersStated(options));
+    this.context = {model, radians: radians(model, model.line(project)), codes, boxes, notes: [], budget: {steps: limits.steps}};
+  }
+
+  /** Asks for what all of it leaves open. */
+  ask(): void {
+    this.found.asks.push(...this.context.boxes.ask());
   }
 
   private each(ids: number[], act: (line: Line) => void): void {
@@ -181,7 +204,7 @@ class File {
     this.each(ids, (member) => {
       if ((related.products.get(member.id) ?? []).some((id) => this.imported.has(id))) return;
       const body = structural(this.context, member, related);
-      if (body.kind === 'tube' && tubes.has(segmentKey(scaled(body.from, this.mm), scaled(body.to, this.mm)))) return;
+      if (body.kind !== 'bend' && tubes.has(segmentKey(scaled(body.from, this.mm), scaled(body.to, this.mm)))) return;
       put(this.context, member, [body], this.found, this.name, this.mm);
     });
   }
@@ -198,6 +221,7 @@ function every(library: typeof WebIfc, model: Model, found: Found, options: IfcO
   const file = new File(library, model, found, options);
   file.products();
   file.structure();
+  file.ask();
 }
 
 /** Beams, columns, members, pipes, bends and structural members of an IFC file (2x3, 4, 4x3) as a frame. */

@@ -6,10 +6,25 @@ import {type Line, told, Trouble} from './model.js';
 import {axes, maybeAxes, operator2d} from './placement.js';
 
 /** A tube's section about its own middle, in the profile's unit; `place` is where its middle and axes lie in the profile's plane. */
-export type Section = {place: Matrix} & (
-  | {kind: 'ring'; outer: number; wall: number}
-  | {kind: 'box'; width: number; height: number; corner: number | undefined}
-);
+export type Section = {place: Matrix} & ({kind: 'ring'; outer: number; wall: number} | ({kind: 'box'} & Box));
+
+/** Width along x, height along y. Of the outer corner, undefined is sharp; of the inner one, not stated. */
+export interface Box {
+  width: number;
+  height: number;
+  wall: number;
+  corner: number | undefined;
+  inner: number | undefined;
+}
+
+/** A profile in another scale. */
+export const boxScaled = ({width, height, wall, corner, inner}: Box, k: number): Box => ({
+  width: width * k,
+  height: height * k,
+  wall: wall * k,
+  corner: corner && corner * k,
+  inner: inner && inner * k,
+});
 
 function ring({model}: Context, profile: Line): Section {
   const radius = model.positive(profile, 'Radius');
@@ -19,10 +34,11 @@ function ring({model}: Context, profile: Line): Section {
 }
 
 function box({model}: Context, profile: Line): Section {
-  const own = model.maybeNumber(profile, 'OuterFilletRadius') ?? 0;
-  model.positive(profile, 'WallThickness');
-  const [width, height] = [model.positive(profile, 'XDim'), model.positive(profile, 'YDim')];
-  return {kind: 'box', width, height, corner: own > 0 ? own : undefined, place: maybeAxes(model, profile, 'Position')};
+  const [corner, inner] = [model.maybeNumber(profile, 'OuterFilletRadius') ?? 0, model.maybeNumber(profile, 'InnerFilletRadius')];
+  const [wall, width, height] = [model.positive(profile, 'WallThickness'), model.positive(profile, 'XDim'), model.positive(profile, 'YDim')];
+  if (2 * wall >= Math.min(width, height)) throw new Trouble(`${told(profile)} has a wall of ${wall} and sides of ${width} and ${height}`);
+  if (corner < 0 || (inner ?? 0) < 0) throw new Trouble(`${told(profile)} has a corner radius that is less than 0`);
+  return {kind: 'box', width, height, wall, corner: corner || undefined, inner, place: maybeAxes(model, profile, 'Position')};
 }
 
 interface Outline {
@@ -133,7 +149,7 @@ function withVoid(context: Context, profile: Line): Section {
   const even = side > 0 && Math.abs(side - floor) <= close * a.width && turned <= close && off <= close * a.width;
   if (!even) throw new Trouble(`${told(profile)} is no tube: its wall is not the same all around`);
   const place = {x: a.x, y: cross([0, 0, 1], a.x), z: identity.z, origin: outer.middle};
-  return {kind: 'box', width: a.width, height: a.height, corner: a.corner > 0 ? a.corner : undefined, place};
+  return {kind: 'box', width: a.width, height: a.height, wall: side, corner: a.corner || undefined, inner: b.corner, place};
 }
 
 /** Another profile, moved in its plane. */
@@ -149,8 +165,7 @@ function derivedFrom(context: Context, profile: Line, depth: number): Section {
   const x = unit(place.x) as Vector;
   const own = {x, y: cross([0, 0, 1], x), z: identity.z, origin: placed(move, parent.place.origin)};
   if (parent.kind === 'ring') return {kind: 'ring', outer: parent.outer * scale, wall: parent.wall * scale, place: own};
-  const corner = parent.corner === undefined ? undefined : parent.corner * scale;
-  return {kind: 'box', width: parent.width * scale, height: parent.height * scale, corner, place: own};
+  return {kind: 'box', ...boxScaled(parent, scale), place: own};
 }
 
 const kinds: Record<string, (context: Context, profile: Line, depth: number) => Section> = {

@@ -3,18 +3,20 @@ import {after, cross, dot, length, type Matrix, minus, placed, times, turned, un
 import {type Arc, type Context, directrix, filleted, tangentAt} from './curves.js';
 import {limits} from '../limits.js';
 import {type Line, told, Trouble} from './model.js';
-import {type Section, sectionOf} from './profiles.js';
+import {type Box, boxScaled, type Section, sectionOf} from './profiles.js';
 import {axes, direction, maybeAxes, operator, point, scaleOf} from './placement.js';
 
-/** A body's shape, in the world and in the file's unit. `corner`: mitred to the tube before it. */
+/**
+ * A body's shape, in the world and in the file's unit. `corner` of a tube: mitred to the tube before it. `turned` is
+ * false if the file does not state how a box lies about its axis.
+ */
 export type Body =
   | {kind: 'tube'; from: Vector; to: Vector; outer: number; wall: number; corner?: boolean}
-  | {kind: 'box'; from: Vector; to: Vector; width: number; height: number; corner_radius: number; up: Vector}
+  | ({kind: 'box'; from: Vector; to: Vector; up: Vector; profile: Line; turned?: false} & Box)
   | {kind: 'bend'; from: Vector; direction: Vector; inwards: Vector; radius: number; angle: number; outer: number};
 
 export interface Reading extends Context {
   notes: NotUnderstood[];
-  corner: number | undefined; // of rectangular tubes without their own value, in the file's unit
   /**
    * Number of bodies that may still be read in the whole file, so that no file can nest them
    * without end.
@@ -24,15 +26,12 @@ export interface Reading extends Context {
 }
 
 /** A section swept along a straight line: from and to are the middles of its ends, in the world. */
-export function prism(reading: Reading, section: Section, place: Matrix, depth: number, who: Line): Body {
+export function prism(section: Section, place: Matrix, depth: number, who: Line): Body {
   const whole = after(place, section.place);
   const scale = scaleOf(whole, who);
   const [from, to] = [whole.origin, placed(whole, [0, 0, depth])];
   if (section.kind === 'ring') return {kind: 'tube', from, to, outer: section.outer * scale, wall: section.wall * scale};
-  const corner_radius = section.corner === undefined ? reading.corner : section.corner * scale;
-  if (corner_radius === undefined)
-    throw new Trouble(`${told(who)} is a rectangular tube without OuterFilletRadius or with sharp corners: the service takes no sharp ones, state --corner`);
-  return {kind: 'box', from, to, up: unit(whole.y) as Vector, width: section.width * scale, height: section.height * scale, corner_radius};
+  return {kind: 'box', from, to, up: unit(whole.y) as Vector, profile: who, ...boxScaled(section, scale)};
 }
 
 function extruded(reading: Reading, solid: Line, world: Matrix): Body[] {
@@ -42,7 +41,7 @@ function extruded(reading: Reading, solid: Line, world: Matrix): Body[] {
   const way = direction(model, model.of(solid, 'ExtrudedDirection'));
   if (Math.hypot(way[0], way[1]) > 1e-9) throw new Trouble(`${told(solid)} is extruded at a slant`);
   const depth = model.positive(solid, 'Depth');
-  return [prism(reading, section, after(world, maybeAxes(model, solid, 'Position')), way[2] * depth, profile)];
+  return [prism(section, after(world, maybeAxes(model, solid, 'Position')), way[2] * depth, profile)];
 }
 
 /** Turned about an axis in the profile's plane: a bend. */

@@ -1,10 +1,11 @@
-import {after, cross, distance, identity, type Matrix, minus, placed, unit, type Vector} from '../geometry.js';
+import {after, cross, distance, identity, length, type Matrix, minus, placed, turned, unit, type Vector} from '../geometry.js';
 import {limits} from '../limits.js';
+import {usualUp} from '../sections.js';
 import {type Context, type Piece, wayOf} from './curves.js';
 import {type Line, type Model, told, Trouble} from './model.js';
 import {inWorld, point} from './placement.js';
 import {type Section, sectionOf} from './profiles.js';
-import {type Body, prism, type Reading} from './solids.js';
+import {type Body, prism} from './solids.js';
 
 /** Entities by their relations: of structural members, profiles and products. */
 export interface Relations {
@@ -113,11 +114,16 @@ const straight = (pieces: Piece[]): boolean => {
   );
 };
 
+/** A structural member may have no placement. */
+function worldOf(model: Model, member: Line): Matrix {
+  const placement = model.maybe(member, 'ObjectPlacement');
+  return placement ? inWorld(model, placement) : identity;
+}
+
 /** The one axis of a structural member, in the world. */
 function axisOf(context: Context, member: Line): {from: Vector; to: Vector} {
   const {model} = context;
-  const placement = model.maybe(member, 'ObjectPlacement');
-  const world: Matrix = placement ? inWorld(model, placement) : identity;
+  const world = worldOf(model, member);
   const representations = model.list(model.of(member, 'Representation'), 'Representations', limits.points);
   const drawn = representations.filter(({type}) => type === 'IfcTopologyRepresentation');
   const all = drawn.length > 0 ? drawn : representations;
@@ -130,7 +136,7 @@ function axisOf(context: Context, member: Line): {from: Vector; to: Vector} {
 }
 
 /** A member of a structural analysis model: its edge with its profile about it. */
-export function structural(reading: Reading, member: Line, {profiles, eccentric}: Relations): Body {
+export function structural(reading: Context, member: Line, {profiles, eccentric}: Relations): Body {
   const {model} = reading;
   if (member.type !== 'IfcStructuralCurveMember') throw new Trouble(`${member.type} is not imported`);
   const named = (profiles.get(member.id) ?? []).flatMap((each) => profilesOf(model, each));
@@ -138,21 +144,24 @@ export function structural(reading: Reading, member: Line, {profiles, eccentric}
   if (own.length !== 1 || !own[0]) throw new Trouble(`${told(member)} has ${own.length === 0 ? 'no profile' : 'more than one profile'}`);
   if (eccentric.has(member.id)) throw new Trouble(`${told(member)} has an eccentric connection: where its tube lies is not certain`);
   const section: Section = sectionOf(reading, own[0]);
-  if (section.kind === 'ring' && distance(section.place.origin, [0, 0, 0]) > 1e-9 * section.outer) throw new Trouble(`${told(own[0])} lies off its axis`);
+  const size = section.kind === 'ring' ? section.outer : section.width;
+  if (distance(section.place.origin, [0, 0, 0]) > 1e-9 * size) throw new Trouble(`${told(own[0])} lies off its axis`);
   const {from, to} = axisOf(reading, member);
   const z = unit(minus(to, from)) as Vector;
-  const y = upOf(model, member, z);
+  const stated = upOf(model, member, z);
+  const y = stated ?? (unit(cross(z, cross(usualUp(z), z))) as Vector);
   const place: Matrix = {x: cross(y, z), y, z, origin: from};
-  return prism(reading, section, after(place, identity), distance(from, to), own[0]);
+  const body = prism(section, after(place, identity), distance(from, to), own[0]);
+  return body.kind === 'box' && stated === undefined ? {...body, turned: false} : body;
 }
 
 /**
- * Returns the profile's y: across the edge, like the member's Axis (its local z); not used for a
- * round tube.
+ * Returns the profile's y: across the edge, like the member's Axis (its local z), which is stated in its placement;
+ * undefined if it has none, or one along its edge.
  */
-function upOf(model: Model, member: Line, z: Vector): Vector {
+function upOf(model: Model, member: Line, z: Vector): Vector | undefined {
   const axis = model.maybe(member, 'Axis');
-  const ratios = axis && model.vector(axis, 'DirectionRatios');
-  const given = ratios && unit(cross(z, cross(ratios, z)));
-  return given ?? (unit(cross(z, Math.abs(z[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0])) as Vector);
+  const stated = axis && unit(turned(worldOf(model, member), model.vector(axis, 'DirectionRatios')));
+  const across = stated && cross(z, cross(stated, z));
+  return across && length(across) > 1e-6 ? unit(across) : undefined;
 }

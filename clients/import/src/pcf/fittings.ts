@@ -50,7 +50,8 @@ interface Branch {
   out: Vector; // where the branch's pipe begins
 }
 
-const outerOf = (member: Member): number => ('size' in member ? (sizeNamed(member.size)?.outer_diameter_mm ?? Number.NaN) : member.outer_diameter_mm);
+const outerOf = (member: Member): number =>
+  'outer_diameter_mm' in member ? member.outer_diameter_mm : ('size' in member && sizeNamed(member.size)?.outer_diameter_mm) || Number.NaN;
 
 /** How far a point is from a member's axis, and where its foot lies on it, from 0 to 1. */
 function beside(member: Member, p: Vector): {off: number; along: number} {

@@ -59,7 +59,10 @@ export function sound({frame, notUnderstood, asks, sources}, told) {
   for (const id of ids) assert.ok(id.length > 0 && id.length <= 64, told);
   for (const each of members) {
     assert.ok(isPoint(each.start_mm) && isPoint(each.end_mm), told);
-    assert.ok(typeof each.size === 'string' || (each.outer_diameter_mm > 0 && each.wall_mm > 0 && each.wall_mm < each.outer_diameter_mm / 2), told);
+    if (each.kind !== undefined) {
+      assert.ok(isPoint(each.up) && each.height_mm > 0 && each.width_mm > 0 && each.wall_mm > 0 && 2 * each.wall_mm < Math.min(each.height_mm, each.width_mm), told);
+      assert.ok(each.kind === 'flat_oval_tube' || typeof each.corners === 'string' || each.corner_radius_mm > each.wall_mm, told);
+    } else assert.ok(typeof each.size === 'string' || (each.outer_diameter_mm > 0 && each.wall_mm > 0 && each.wall_mm < each.outer_diameter_mm / 2), told);
   }
   for (const {between} of joints) assert.ok(between.length === 2 && between.every((id) => ids.includes(id)), `${told}: ${between}`);
   const keys = joints.map(({between}) => [...between].sort().join('\n'));
@@ -67,17 +70,18 @@ export function sound({frame, notUnderstood, asks, sources}, told) {
 }
 
 const read = {
-  ifc: (text) => fromIfc(bytes(text), {corner_radius_mm: 5}),
+  ifc: (text, next) => fromIfc(bytes(text), pick(next, [{}, {corner_radius_mm: 5}, {corners: 'en_10219'}])),
   pcf: (text, next) => fromPcf(text, pick(next, [{}, {schedule: 'SCH 40'}, {bores: {152.4: 'NPS 6', 4: '114.3'}, schedule: 'STD'}])),
-  csv: (text, next) => fromCsv(text, pick(next, [{}, {unit: 'm'}, {nodes: 'node,x,y,z\n1,0,0,0\n2,5,5,5\n'}, {size: {size: 'NPS 2 STD'}}])),
-  dxf: (text) => {
+  csv: (text, next) => fromCsv(text, pick(next, [{}, {unit: 'm'}, {nodes: 'node,x,y,z\n1,0,0,0\n2,5,5,5\n'}, {size: {size: 'NPS 2 STD'}}, {corners: 'en_10210'}, {size: {size: 'RHS 60x40x3'}, corner_radius_mm: 6}])),
+  dxf: (text, next) => {
     let layers = [];
     try {
       layers = layersOf(text);
     } catch (failure) {
       assert.match(failure.message, /^it cannot be read/);
     }
-    return fromDxf(text, Object.fromEntries(layers.map((layer) => [layer, {outer_diameter_mm: 60.3, wall_mm: 3}])));
+    const size = pick(next, [{outer_diameter_mm: 60.3, wall_mm: 3}, {size: 'SHS 40x3 EN 10219'}]);
+    return fromDxf(text, Object.fromEntries(layers.map((layer) => [layer, size])));
   },
 };
 

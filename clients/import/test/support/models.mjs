@@ -158,13 +158,14 @@ function bendAndBox({unit, schema, seed}) {
   const along = (d) => moved(world, d).map((v, i) => v - moved(world, [0, 0, 0])[i]);
   return {
     name: `bend and box ${unit} ${schema}`, text: step.text(),
-    members: [{id: 'brace', ends: [at(foot, [0, 0, 0]), at(foot, [1000 / mm, 0, 0])], outer: 48.3, wall: 2.6}],
+    members: [
+      {id: 'box', ends: [0, long].map((z) => at(world, [10 / mm, 20 / mm, z])), section: {height_mm: 80, width_mm: 120, wall_mm: 6, corner_radius_mm: 12, inner_corner_radius_mm: 6}, up: along([-s, c, 0])},
+      {id: 'brace', ends: [at(foot, [0, 0, 0]), at(foot, [1000 / mm, 0, 0])], outer: 48.3, wall: 2.6},
+    ],
     others: [
       // About +y, from the origin with the centre at +x: it leaves towards +z.
       {kind: 'elbow', id: 'bend', outer_diameter_mm: outer, bend_radius_mm: 304.8, bend_deg: 90, point: at(world, [0, 0, 0]), direction: along([0, 0, 1]), side: ['inwards', along([1, 0, 0])]},
-      {kind: 'rectangular_tube', id: 'box', width_mm: 120, height_mm: 80, corner_radius_mm: 12, point: at(world, [10 / mm, 20 / mm, 0]), direction: along([0, 0, 1]), side: ['up', along([-s, c, 0])]},
     ],
-    joints: [{between: ['brace', 'box'], kind: 'set_on', end: 'start'}],
   };
 }
 

@@ -127,6 +127,7 @@ export function file(seed) {
   // Rectangular tubes: one that a round tube ends at, one far away, as profiles of their own or with voids.
   const [w, h, t] = [200 / mm, 100 / mm, 8 / mm];
   const round = next() < 0.7 ? 16 / mm : 0;
+  let open = 0; // whose corners are not stated
   for (const touched of [true, false]) {
     const place = product(shift(between(next, -9000, 9000) / mm, 0, (touched ? 6e5 : 8e5) / mm), rotation(2, 360 * next()));
     const hollow = next() < 0.5 || (round > 0 && !modern);
@@ -136,9 +137,14 @@ export function file(seed) {
     const solid = step.add('IFCEXTRUDEDAREASOLID', section, step.axes(shift(0, 0, 0)), step.direction([0, 0, 1]), 3000 / mm);
     const name = touched ? 'box' : 'far box';
     const id = element('IFCBEAM', {text: `'${name}'`, tag: '$'}, step.placement(place), step.body([solid]));
-    if (round === 0) reasons.push([id, /sharp/]);
-    else if (!touched) reasons.push([id, /rectangular tube of 200 x 100 mm.*no round tube ends at it/]);
-    else boxes.push({id: name, width_mm: 200, height_mm: 100, corner_radius_mm: 16});
+    if (round === 0) {
+      open += 1;
+      reasons.push([id, /sharp/]);
+    } else {
+      const up = moved(place, [0, 1, 0]).map((v, i) => v - moved(place, [0, 0, 0])[i]);
+      boxes.push({id: name, ends: [0, 3000 / mm].map((z) => moved(place, [0, 0, z]).map((v) => v * mm)), sides: [100, 200, 8], inner: hollow ? undefined : 8, up});
+      if (hollow) reasons.push([section, /^assumed: .* has no InnerFilletRadius/]);
+    }
     if (!touched) continue;
     const foot = product(place, shift(100 / mm, 0, 1500 / mm), rotation(1, 90));
     const pipe = step.add('IFCEXTRUDEDAREASOLID', step.add('IFCCIRCLEHOLLOWPROFILEDEF', '.AREA.', missing(), modern ? missing() : step.add('IFCAXIS2PLACEMENT2D', step.point([0, 0]), missing()), 30 / mm, 3 / mm),
@@ -146,5 +152,5 @@ export function file(seed) {
     const own = element('IFCMEMBER', {text: "'on the box'", tag: '$'}, step.placement(foot), step.body([pipe]));
     members.push(finished({name: 'on the box', ends: [[0, 0, 0], [0, 0, 900 / mm]].map((p) => moved(foot, p).map((v) => v * mm)), expect: {outer_diameter_mm: 60, wall_mm: 3}}, own));
   }
-  return {seed, text: step.text(), members, boxes, reasons, analysis};
+  return {seed, text: step.text(), members, boxes, reasons, open, analysis};
 }
