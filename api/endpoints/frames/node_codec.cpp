@@ -45,6 +45,26 @@ constexpr std::array kMemberKinds{
     Option<MemberKind>{"rectangular_tube", MemberKind::rectangular_tube},
     Option<MemberKind>{"flat_oval_tube", MemberKind::flat_oval_tube}};
 
+/// Refuses an unknown kind, and the lengths of a section without one; the other fields depend on
+/// it.
+bool names_kind(Reader& in) {
+  static constexpr std::array<std::string_view, 5> kOfSection{
+      "height_mm", "width_mm", "corners", "corner_radius_mm", "inner_corner_radius_mm"};
+  in.note("kind");
+  if (in.has("kind"))
+    in.choice("kind", kMemberKinds);
+  else if (std::ranges::any_of(kOfSection, [&](auto name) { return in.has(name); }))
+    in.issue({.code = ErrorCode::missing_field,
+              .pointer = "kind",
+              .hint = "rectangular_tube or flat_oval_tube, because the member has their fields"});
+  else
+    return true;
+  if (in.has("kind") && in.understood("kind")) return true;
+  for (const auto name : kOfSection) in.note(name);
+  for (const auto* name : {"size", "outer_diameter_mm", "wall_mm"}) in.note(name);
+  return false;
+}
+
 /// Decodes the member's diameter and wall, or its section.
 void decode_shape(Reader& in, bool any_size, NamedMember& named) {
   auto& out = named.member;
@@ -56,8 +76,7 @@ void decode_shape(Reader& in, bool any_size, NamedMember& named) {
     out.wall = out.thickness();
     return;
   }
-  in.note("kind");
-  if (in.has("kind")) in.choice("kind", kMemberKinds);
+  if (!names_kind(in)) return;
   const auto section = any_size ? decode_any_section(in) : decode_tube_section(in, true);
   out.outer_radius = section.outer_radius;
   out.wall = section.wall;
@@ -141,8 +160,9 @@ joint::Link decode_link(Reader& in, const MemberIds& ids) {
 NodeEnd decode_end(Reader& in) {
   const auto node = decode_named_node(in);
   NodeEnd out{.node = node.spec};
-  out.member = known_member(in, node.ids, in.text("member"), "member");
-  out.section = section_of(node, out.member);
+  const auto id = in.text("member");
+  out.member = known_member(in, node.ids, id, "member");
+  if (node.ids.places.contains(id)) out.section = section_of(node, out.member);
   out.end = in.choice("end", kNames<joint::End>);
   return out;
 }
