@@ -97,11 +97,10 @@ joint::MemberFrame Laid::stand(const joint::MemberFrame& own) const {
 /// The forms, and a cache of comparisons.
 class Gatherer::Known {
  public:
-  Known(std::span<const part::PartSpec* const> forms, std::span<const std::string> texts,
-        double within)
+  Known(std::span<const AskedPart> forms, std::span<const std::string> texts, double within)
       : texts_(texts.begin(), texts.end()), within_(std::max(within, kLeastAlike)) {
-    for (const auto* part : forms)
-      forms_.push_back(part == nullptr ? std::nullopt : detail::form_of(*part));
+    for (const auto& asked : forms)
+      forms_.push_back(asked.part == nullptr ? std::nullopt : detail::form_of(asked));
     walls_.resize(forms_.size());
   }
 
@@ -157,10 +156,10 @@ Gatherer::Known::Fit Gatherer::Known::fit(const Side& member, const Side& by, co
                   std::llround(laid.turn.rad() / detail::kSameTurn), laid.holes, laid.marks};
   if (const auto known = fits_.find(pair); known != fits_.end()) return known->second;
   auto& theirs = walls_[by.shape.form];
-  if (!theirs) theirs = detail::wall_of(*by.form.part, {}, stop);
+  if (!theirs) theirs = detail::wall_of(by.form, {}, stop);
   const auto make = [&]() -> Fit {
     if (!*theirs) return {};
-    const auto own = detail::wall_of(*member.form.part, laid.turn, stop);
+    const auto own = detail::wall_of(member.form, laid.turn, stop);
     Ways ways;
     if (!own || !ways.add(own->ends, (*theirs)->ends)) return {};
     for (std::size_t i = 0; i < own->holes.size(); ++i)
@@ -242,7 +241,7 @@ Result<std::vector<AlikeGroup>> Gatherer::Known::groups(std::span<const Shape> s
   return out;
 }
 
-Gatherer::Gatherer(std::span<const part::PartSpec* const> forms, std::span<const std::string> texts,
+Gatherer::Gatherer(std::span<const AskedPart> forms, std::span<const std::string> texts,
                    double within)
     : known_(std::make_unique<Known>(forms, texts, within)) {}
 Gatherer::~Gatherer() = default;

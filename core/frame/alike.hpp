@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/joint/placement.hpp"
 #include "core/part/part.hpp"
+#include "core/section/section.hpp"
 
 namespace tubecut::frame {
 
@@ -25,6 +26,13 @@ struct Shape {
   std::string key;       // the tube, and how both ends are cut
   std::vector<std::string> start, finish;  // of each partner
   std::vector<std::string> holes, marks;   // of each, with the part that is placed there
+};
+
+/// A part as requested. Of a tube that is not round, `section` is its outline, and the part's
+/// target is a round tube of the same girth, by which places round it are compared.
+struct AskedPart {
+  const part::PartSpec* part = nullptr;  // nullptr: it is invalid, and alike only to its own form
+  const section::Section* section = nullptr;
 };
 
 /// Transforms the part that represents a group into one of its members: rotate it back by `turn`
@@ -48,7 +56,8 @@ struct AlikeGroup {
 
 /// Groups parts whose finished surfaces differ by at most `within` (at least kLeastAlike)
 /// everywhere from the part that represents their group, after a rotation about its axis and a move
-/// along it; never mirrored or end for end. Each comparison is made only once.
+/// along it; never mirrored or end for end. A tube that is not round is rotated by half turns, a
+/// square one by quarters. Each comparison is made only once.
 ///
 /// The finished walls are compared edge by edge at equal phases: kAlikePhases at each end, half as
 /// many at each hole, and the positions of the marks. Second differences bound the difference
@@ -58,10 +67,8 @@ struct AlikeGroup {
 /// each group is gathered around the one that is in the middle by length between both cuts.
 class Gatherer {
  public:
-  /// `forms`: each part as requested. If it is invalid, it is nullptr, and it is alike only to its
-  /// own form. `texts`: of each form; they break ties.
-  Gatherer(std::span<const part::PartSpec* const> forms, std::span<const std::string> texts,
-           double within);
+  /// `texts`: of each form; they break ties.
+  Gatherer(std::span<const AskedPart> forms, std::span<const std::string> texts, double within);
   ~Gatherer();
   Gatherer(const Gatherer&) = delete;
   Gatherer& operator=(const Gatherer&) = delete;

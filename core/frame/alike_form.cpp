@@ -5,6 +5,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/bevel/hole/hole.hpp"
+#include "core/bevel/section/section_table.hpp"
 #include "core/bevel/table/table.hpp"
 #include "core/joint/intersection.hpp"
 
@@ -29,7 +30,7 @@ double mean_height(const FormEnd& end, double radius) {
   return sum / static_cast<double>(kMeanOver);
 }
 
-std::optional<FormEnd> end_of(const bevel::TableSpec& cut) {
+std::optional<FormEnd> end_of(const bevel::TableSpec& cut, double bore_radius) {
   const auto seats = bevel::grown_partners(cut);
   if (!seats) return std::nullopt;
   FormEnd out;
@@ -40,7 +41,7 @@ std::optional<FormEnd> end_of(const bevel::TableSpec& cut) {
     const auto to = joint::bearing(cut.partners[i]);
     out.perpendicular.push_back(to ? std::optional(to->perpendicular) : std::nullopt);
   }
-  out.left = mean_height(out, cut.target.inner_radius());
+  out.left = mean_height(out, bore_radius);
   return out;
 }
 
@@ -53,17 +54,23 @@ bevel::TableSpec on_phases(bevel::TableSpec cut, Angle turn) {
   return cut;
 }
 
-/// Adds the edges of an end; those of a finish in the start's frame.
-bool add_end(const bevel::TableSpec& cut, Angle turn, std::optional<double> length, FormWall& out,
-             const std::stop_token& stop) {
-  const auto table = bevel::table(on_phases(cut, turn), stop);
-  if (!table || table->phi.size() != kAlikePhases) return false;
+/// Adds the edges of a table; those of a finish in the start's frame.
+template <class Table>
+bool add_edges(const Result<Table>& table, std::optional<double> length, FormWall& out) {
+  if (!table || table->z_outer.size() != kAlikePhases) return false;
   for (const auto* z : {&table->z_inner, &table->z_face, &table->z_outer}) {
     if (z->empty()) continue;  // if there is no land
     auto& line = out.ends.emplace_back();
     for (const double one : *z) line.z.push_back(length ? *length - one : one);
   }
   return true;
+}
+
+bool add_end(const Form& form, const bevel::TableSpec& cut, Angle turn,
+             std::optional<double> length, FormWall& out, const std::stop_token& stop) {
+  const auto asked = on_phases(cut, turn);
+  if (form.section) return add_edges(bevel::section_table(*form.section, asked, stop), length, out);
+  return add_edges(bevel::table(asked, stop), length, out);
 }
 
 bool add_hole(bevel::HoleSpec asked, Angle turn, FormWall& out, const std::stop_token& stop) {
@@ -95,11 +102,16 @@ Looks FormEnd::looks(std::size_t partner, double radius, double turned_by) const
 
 double Form::middle() const { return part->target.outer_radius - 0.5 * part->target.wall; }
 
-std::optional<Form> form_of(const part::PartSpec& part) {
-  auto start = end_of(part.start.cut);
-  auto finish = end_of(part.finish.cut);
+std::optional<Form> form_of(const AskedPart& asked) {
+  const auto& part = *asked.part;
+  auto start = end_of(part.start.cut, part.target.inner_radius());
+  auto finish = end_of(part.finish.cut, part.target.inner_radius());
   if (!start || !finish || !part.target.length) return std::nullopt;
-  Form out{.part = &part, .start = *std::move(start), .finish = *std::move(finish), .holes = {}};
+  Form out{.part = &part,
+           .section = asked.section,
+           .start = *std::move(start),
+           .finish = *std::move(finish),
+           .holes = {}};
   for (const auto& one : part.holes) {
     const auto branch = bevel::branch_tube(one.hole.branch);
     if (!branch) return std::nullopt;
@@ -109,11 +121,11 @@ std::optional<Form> form_of(const part::PartSpec& part) {
   return out;
 }
 
-std::optional<FormWall> wall_of(const part::PartSpec& part, Angle turn,
-                                const std::stop_token& stop) {
+std::optional<FormWall> wall_of(const Form& form, Angle turn, const std::stop_token& stop) {
+  const auto& part = *form.part;
   FormWall out;
-  if (!add_end(part.start.cut, turn, {}, out, stop) ||
-      !add_end(part.finish.cut, -turn, part.target.length, out, stop))
+  if (!add_end(form, part.start.cut, turn, {}, out, stop) ||
+      !add_end(form, part.finish.cut, -turn, part.target.length, out, stop))
     return std::nullopt;
   for (const auto& one : part.holes)
     if (!add_hole(one.hole, turn, out, stop)) return std::nullopt;

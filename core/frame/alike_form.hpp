@@ -29,6 +29,7 @@ struct FormEnd {
 /// resemble each other.
 struct Form {
   const part::PartSpec* part = nullptr;
+  const section::Section* section = nullptr;  // of a tube that is not round
   FormEnd start, finish;
   std::vector<joint::TubeCutter> holes;  // the branches of the holes
   double left = 0.0;                     // mean length between both cuts on the bore; NaN: unknown
@@ -36,7 +37,7 @@ struct Form {
   [[nodiscard]] double middle() const;  // mean radius of the wall
 };
 /// Returns empty when the partners are invalid.
-[[nodiscard]] std::optional<Form> form_of(const part::PartSpec& part);
+[[nodiscard]] std::optional<Form> form_of(const AskedPart& asked);
 
 /// The finished wall of a form at the phases of the comparison: z in the start's frame, for holes
 /// also phi.
@@ -50,7 +51,7 @@ struct FormWall {
 };
 /// Computes the wall of the part rotated by `turn` about its axis. Returns empty when the part
 /// cannot be cut on these phases.
-[[nodiscard]] std::optional<FormWall> wall_of(const part::PartSpec& part, Angle turn,
+[[nodiscard]] std::optional<FormWall> wall_of(const Form& form, Angle turn,
                                               const std::stop_token& stop);
 
 }  // namespace tubecut::frame::detail

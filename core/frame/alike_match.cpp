@@ -158,6 +158,20 @@ Handle handle_of(const Side& side) {
   return {};
 }
 
+/// Returns the rotations that a section permits, of those near one.
+std::vector<double> permitted(const std::vector<double>& turns, const section::Section& section) {
+  constexpr double kNear = 0.01;  // rad
+  const double step = section.height == section.width ? 0.5 * kPi : kPi;
+  std::vector<double> out;
+  for (const double turn : turns) {
+    const double exact = step * std::round(turn / step);
+    const bool there = std::ranges::any_of(
+        out, [&](double one) { return std::abs(near_zero(one - exact)) < kNear; });
+    if (std::abs(turn - exact) < kNear && !there) out.push_back(near_zero(exact));
+  }
+  return out;
+}
+
 }  // namespace
 
 bool Side::whole() const {
@@ -181,7 +195,7 @@ std::vector<double> turns(const Side& member, const Side& by, double within) {
           out, [&](double one) { return std::abs(near_zero(one - turn)) < same; });
       if (!there) out.push_back(turn);
     }
-  return out;
+  return by.form.section ? permitted(out, *by.form.section) : out;
 }
 
 std::optional<Laid> resembles(const Side& member, const Side& by, double turn, double within) {

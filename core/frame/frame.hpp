@@ -135,10 +135,6 @@ struct Frame {
 /// Cost      twice that of joint::solve, with joint::overlaps; otherwise linear in members.
 [[nodiscard]] Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop = {});
 
-/// Returns the piece of a member that is not round turned about its axis by 90 deg, `quarters`
-/// times, into the same form as `solve`: equal members that lie turned get equal pieces.
-[[nodiscard]] Result<Piece> turned(Piece piece, const section::Section& section, int quarters);
-
 /// Verifies the requested parts by their own numbers: places them back into the world and compares
 /// them with the centre-lines, and compares the two sides of each joint. `asked`: of each member;
 /// if a part is refused by itself, it is null and is skipped.

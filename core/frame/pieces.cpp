@@ -77,19 +77,6 @@ struct In {
   }
 };
 
-/// Lets the axis and the height of a rectangular partner rise with z, or with x if they are level,
-/// because the body is the same both ways.
-void orient(Partner& partner) {
-  auto* box = std::get_if<joint::RectangularTubeCutter>(&partner);
-  if (box == nullptr) return;
-  for (auto* v : {&box->direction, &box->up}) {
-    const double first = std::abs(v->z()) > kLevel   ? v->z()
-                         : std::abs(v->x()) > kLevel ? v->x()
-                                                     : v->y();
-    if (first < 0.0) *v = -*v;
-  }
-}
-
 /// A body that cuts an end, in the world.
 struct InWorld {
   Partner partner;
@@ -97,7 +84,6 @@ struct InWorld {
   std::size_t joint = 0;
   std::string at;  // for errors
   double missing = 0.0;
-  bool oriented = false;  // see `orient`
 };
 
 std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std::size_t index) {
@@ -111,7 +97,6 @@ std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std
                 .at = "members/" + std::to_string(cut.member),
                 .missing = cut.missing};
     if (m.section) one.partner = joint::box_of(m);
-    one.oriented = m.section.has_value();
     if (cut.plane)
       one.partner =
           joint::PlaneCutter{end.frame.origin + end.frame.rows.transpose() * cut.plane->point,
@@ -123,8 +108,7 @@ std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std
                    .stated = joint::Joint{.kind = joint::JointKind::set_on,
                                           .gap = joined.joints[one.joint].how.gap},
                    .joint = one.joint,
-                   .at = "others/" + std::to_string(one.other),
-                   .oriented = spec.members[end.member].section.has_value()});
+                   .at = "others/" + std::to_string(one.other)});
   return out;
 }
 
@@ -132,7 +116,6 @@ Result<std::vector<Cutter>> placed(const std::vector<InWorld>& all, const Member
   std::vector<Cutter> out;
   for (const auto& one : all) {
     TRY(auto partner, under(one.at, joint::by_kind(one.partner, In{frame})));
-    if (one.oriented) orient(partner);
     out.push_back({std::move(partner), one.stated, one.joint, one.missing});
   }
   return out;
@@ -258,11 +241,6 @@ auto order(double z, double turn) {
   return std::tuple(std::round(z * kWritten), std::round(turn * kWritten));
 }
 
-void sort_stands(Piece& piece) {
-  std::ranges::stable_sort(piece.stands, {},
-                           [](const Stand& s) { return order(s.z, s.phi + s.girth); });
-}
-
 /// Returns the place where the axis of a branch leaves the outside of the member `chord`.
 Stand stand_of(const Branch& one, const joint::Member& branch, const joint::Member& chord,
                const Piece& piece) {
@@ -292,7 +270,8 @@ Result<void> add_branches(const FrameSpec& spec, const Joined& joined, const joi
   }
   std::ranges::stable_sort(
       out.holes, {}, [](const Hole& h) { return order(h.branch.height, h.branch.clocking.rad()); });
-  sort_stands(out);
+  std::ranges::stable_sort(out.stands, {},
+                           [](const Stand& s) { return order(s.z, s.phi + s.girth); });
   return {};
 }
 
@@ -331,35 +310,6 @@ Result<Piece> piece(const FrameSpec& spec, const Joined& joined, std::size_t mem
   return written(across) < written(out) ? across : out;
 }
 
-Result<Piece> turned_by(Piece piece, const section::Section& section, int quarters) {
-  static constexpr std::array kX{1.0, 0.0, -1.0, 0.0}, kY{0.0, 1.0, 0.0, -1.0};
-  const double x = kX[static_cast<std::size_t>(quarters)],
-               y = kY[static_cast<std::size_t>(quarters)];
-  const auto turn = [&](double side) {
-    MemberFrame out;
-    out.rows << x, side * y, 0.0, -side * y, x, 0.0, 0.0, 0.0, 1.0;
-    return out;
-  };
-  const auto start = turn(1.0), finish = turn(-1.0);  // its z runs the other way
-  const auto turn_cutters = [](std::vector<Cutter>& all, const MemberFrame& by) -> Result<void> {
-    for (auto& one : all) {
-      TRY(one.partner, joint::by_kind(one.partner, In{by}));
-      orient(one.partner);
-    }
-    return {};
-  };
-  TRY(turn_cutters(piece.start, start));
-  TRY(turn_cutters(piece.finish, finish));
-  piece.frame.rows = start.rows * piece.frame.rows;
-  const double girth = section.outer().girth();
-  for (auto& one : piece.stands) {
-    one.girth -= 0.25 * girth * quarters;
-    if (one.girth < 0.0) one.girth += girth;
-  }
-  sort_stands(piece);
-  return piece;
-}
-
 }  // namespace
 
 joint::Beside seats_of_others(const FrameSpec& spec, const Joined& joined) {
@@ -390,11 +340,3 @@ Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined,
 }
 
 }  // namespace tubecut::frame::detail
-
-namespace tubecut::frame {
-
-Result<Piece> turned(Piece piece, const section::Section& section, int quarters) {
-  return detail::turned_by(std::move(piece), section, quarters);
-}
-
-}  // namespace tubecut::frame

@@ -392,5 +392,30 @@ TEST(SectionFrames, TurnedMembersShareTheirPart) {
   EXPECT_EQ(parts({0, 1, 0}, box(60, 40, 3)), 4.0);  // lies on its side
 }
 
+/// Coordinates of a turned model are rounded to 0.001 mm, so that no two requests are equal; the
+/// parts are those of the model as it was drawn.
+TEST(SectionFrames, RoundedMembersShareTheirParts) {
+  const auto parts = [](const Model& model) {
+    const auto answer = post("/v1/frames", request_of(model));
+    EXPECT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+    const auto found = look(model, answer.body);
+    EXPECT_LT(found.deepest, 0.021);  // alike_within_mm, and 0.001
+    EXPECT_LT(found.farthest, 0.121);
+    for (const auto& row : *at(answer.body, "result/cut_list").as<Json::Array>())
+      EXPECT_LE(number(row, "differs_at_most_mm"), 0.02);
+    return number(answer.body, "result/totals/parts");
+  };
+  Drawn drawn(7);
+  auto rack = drawn.rack();
+  const double before = parts(rack);
+  const Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).matrix();
+  for (auto& t : rack.tubes) {
+    for (auto* p : {&t.start, &t.finish}) *p = (1e3 * (turn * *p)).array().round() / 1e3;
+    t.up = (1e6 * (turn * t.up)).array().round() / 1e6;
+  }
+  EXPECT_EQ(parts(rack), before);
+  EXPECT_LT(before, static_cast<double>(rack.tubes.size()) - 5.0);
+}
+
 }  // namespace
 }  // namespace tubecut::testing

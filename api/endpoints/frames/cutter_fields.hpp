@@ -12,32 +12,27 @@ namespace tubecut::api::written {
 
 /// Rounds numbers to their significant digits, so that equal parts have equal texts: lengths to
 /// 1e-6 mm, angles to 1e-11 deg, directions to 1e-12, because an axis may be given by a far foot.
-/// Of a tube that is not round angles and directions to 100 times that, because its parts are alike
-/// only if their texts are.
 inline Json tidy(double value, double to) {
   const double out = std::round(value * to) / to;
   return Json{out == 0.0 ? 0.0 : out};
 }
 inline Json mm(double value) { return tidy(value, 1e6); }
-inline Json deg(Angle angle, double coarser = 1.0) {
-  const auto out = tidy(angle.deg(), 1e11 / coarser);
+inline Json deg(Angle angle) {
+  const auto out = tidy(angle.deg(), 1e11);
   return out == Json{360.0} ? Json{0.0} : out;
 }
 inline Json vector(const Eigen::Vector3d& v, double to) {
   return Json{Json::Array{tidy(v.x(), to), tidy(v.y(), to), tidy(v.z(), to)}};
 }
 inline Json point(const Eigen::Vector3d& v) { return vector(v, 1e6); }
+inline Json direction(const Eigen::Vector3d& v) { return vector(v, 1e12); }
+inline Json axis(const Eigen::Vector3d& at, const Eigen::Vector3d& along) {
+  return Json{Json::Object{{"point_mm", point(at)}, {"direction", direction(along)}}};
+}
 
 /// A cutter's own fields but `kind`: one case for every kind.
 struct Fields {
   using All = Json::Object;
-  double coarser = 1.0;
-
-  [[nodiscard]] Json deg(Angle angle) const { return written::deg(angle, coarser); }
-  [[nodiscard]] Json direction(const Eigen::Vector3d& v) const { return vector(v, 1e12 / coarser); }
-  [[nodiscard]] Json axis(const Eigen::Vector3d& at, const Eigen::Vector3d& along) const {
-    return Json{Json::Object{{"point_mm", point(at)}, {"direction", direction(along)}}};
-  }
   All operator()(const joint::TubeCutter& t) const {
     return {{"outer_diameter_mm", mm(2.0 * t.radius)},
             {"inclination_deg", deg(t.inclination)},

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "api/endpoints/frames/cutter_fields.hpp"
@@ -33,16 +32,12 @@ class PartWriter {
   }
 
   [[nodiscard]] Result<Json> part(std::size_t member, const Names& names) const {
-    return part(member, frame_.pieces[member], names);
-  }
-  /// The same of a piece that is turned.
-  [[nodiscard]] Result<Json> part(std::size_t member, const frame::Piece& piece,
-                                  const Names& names) const {
+    const auto& piece = frame_.pieces[member];
     auto target = shape(member);
     target.emplace_back("length_mm", written::mm(*piece.target.length));
     if (names.ids) target.emplace(target.begin(), "id", Json{names.of_members[member]});
-    TRY(auto start, end(member, piece, joint::End::start, names));
-    TRY(auto finish, end(member, piece, joint::End::finish, names));
+    TRY(auto start, end(member, joint::End::start, names));
+    TRY(auto finish, end(member, joint::End::finish, names));
     Json::Object out{
         {"target", Json{std::move(target)}},
         {"ends", Json{Json::Object{{"start", std::move(start)}, {"finish", std::move(finish)}}}}};
@@ -139,9 +134,8 @@ class PartWriter {
     return Json{std::move(out)};
   }
 
-  [[nodiscard]] Result<Json> end(std::size_t member, const frame::Piece& piece, joint::End which,
-                                 const Names& names) const {
-    const auto& all = which == joint::End::start ? piece.start : piece.finish;
+  [[nodiscard]] Result<Json> end(std::size_t member, joint::End which, const Names& names) const {
+    const auto& all = cutters(member, which);
     if (all.empty()) return square_end(member, which);
     Json::Array cutters, joints;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -151,9 +145,8 @@ class PartWriter {
       if (names.ids)
         if (const auto name = cutter_name(all[i], names); !name.empty())
           cutter.emplace_back("id", Json{name});
-      std::ranges::move(
-          joint::by_kind(all[i].partner, written::Fields{is_section(member) ? 100.0 : 1.0}),
-          std::back_inserter(cutter));
+      std::ranges::move(joint::by_kind(all[i].partner, written::Fields{}),
+                        std::back_inserter(cutter));
       cutters.emplace_back(std::move(cutter));
       if (all[i].stated) joints.push_back(joint(i, *all[i].stated, all[i].missing));
     }
@@ -250,11 +243,26 @@ struct Forms {
   std::vector<std::unique_ptr<const Parts::Spec>> read;
 };
 
+/// Gives a part that is not round the target and marks of a round one of the same girth, by which
+/// parts are compared.
+void compare_by_girth(Parts::Spec& spec) {
+  const auto& section = spec.section->section;
+  const double radius = section.outer().girth() / kTwoPi;
+  spec.part.target = {.outer_radius = radius, .wall = section.wall, .length = spec.section->length};
+  for (const auto& mark : spec.of_section.partners)
+    spec.part.partners.push_back({.kind = mark.kind,
+                                  .text = mark.text,
+                                  .phi = mark.s / radius,
+                                  .z_from = mark.z_from,
+                                  .z_to = mark.z_to});
+}
+
 std::unique_ptr<const Parts::Spec> read(const Json& part) {
   Reader in(part);
   (void)read_common_fields(in, Parts::kAccepts);
   auto spec = Parts::decode(in);
   if (!in.finish_root().empty()) return nullptr;
+  if (spec.section) compare_by_girth(spec);
   return std::make_unique<const Parts::Spec>(std::move(spec));
 }
 
@@ -272,31 +280,6 @@ Result<Forms> forms(const PartWriter& writer, const Names& names, const std::sto
     out.read.push_back(read(part));
   }
   return out;
-}
-
-/// Turns members that are not round onto an earlier one whose part is theirs: a rectangular tube is
-/// the same after half a turn, a square one after a quarter.
-Result<void> turn_alike(const PartWriter& writer, const FrameRequest& request, const Names& names,
-                        frame::Frame& frame, const std::stop_token& stop) {
-  std::set<std::string> known;
-  for (std::size_t i = 0; i < frame.pieces.size(); ++i) {
-    const auto& section = request.spec.members[i].section;
-    if (!section) continue;
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    TRY(const auto own, writer.part(i, names));
-    auto text = dump(own);
-    const int step = section->height == section->width ? 1 : 2;
-    for (int quarters = step; quarters < 4 && !known.contains(text); quarters += step) {
-      TRY(auto turned, frame::turned(frame.pieces[i], *section, quarters));
-      TRY(const auto part, writer.part(i, turned, names));
-      auto other = dump(part);
-      if (!known.contains(other)) continue;
-      text = std::move(other);
-      frame.pieces[i] = std::move(turned);
-    }
-    known.insert(std::move(text));
-  }
-  return {};
 }
 
 /// Returns members as shapes, with the names of their current parts.
@@ -317,8 +300,10 @@ Result<std::vector<frame::Shape>> shapes(const PartWriter& writer, const Forms& 
 Result<std::vector<frame::AlikeGroup>> gathered(const PartWriter& writer, const Forms& known,
                                                 const FrameRequest& request, Names& names,
                                                 const std::stop_token& stop) {
-  std::vector<const part::PartSpec*> parts;
-  for (const auto& one : known.read) parts.push_back(one && !one->section ? &one->part : nullptr);
+  std::vector<frame::AskedPart> parts;
+  for (const auto& one : known.read)
+    parts.push_back(
+        {one ? &one->part : nullptr, one && one->section ? &one->section->section : nullptr});
   frame::Gatherer gatherer(parts, known.texts, request.alike_within);
   for (std::size_t before = 0;;) {
     TRY(const auto all, shapes(writer, known, names));
@@ -333,12 +318,11 @@ Result<std::vector<frame::AlikeGroup>> gathered(const PartWriter& writer, const 
 
 }  // namespace
 
-Result<FrameParts> parts_of(const FrameRequest& request, frame::Frame& frame,
+Result<FrameParts> parts_of(const FrameRequest& request, const frame::Frame& frame,
                             const std::stop_token& stop) {
   const auto members = request.spec.members.size();
   const PartWriter writer(request, frame);
   Names names{.ids = false, .of_members = std::vector<std::string>(members, "-")};
-  TRY(turn_alike(writer, request, names, frame, stop));
   TRY(auto known, forms(writer, names, stop));
   TRY(auto groups, gathered(writer, known, request, names, stop));
   FrameParts out{.parts = {},

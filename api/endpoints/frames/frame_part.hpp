@@ -32,11 +32,10 @@ struct FrameParts {
 };
 
 /// Returns the part of every member, each made once: members share one part if their finished
-/// surfaces differ by at most the requested distance. Members that are not round share one if their
-/// requests are equal, to which their pieces in `frame` are turned.
+/// surfaces differ by at most the requested distance.
 /// Errors  joint_contradicts (joints/i/...: two joints of one end require different cuts),
 ///         unsupported_combination (ends/i/...: the end is left square), cancelled.
-[[nodiscard]] Result<FrameParts> parts_of(const FrameRequest& request, frame::Frame& frame,
+[[nodiscard]] Result<FrameParts> parts_of(const FrameRequest& request, const frame::Frame& frame,
                                           const std::stop_token& stop);
 
 }  // namespace tubecut::api
