@@ -50,10 +50,11 @@ constexpr std::array kMemberKinds{
 bool names_kind(Reader& in) {
   static constexpr std::array<std::string_view, 5> kOfSection{
       "height_mm", "width_mm", "corners", "corner_radius_mm", "inner_corner_radius_mm"};
+  const bool round = in.has("outer_diameter_mm") || in.has("size");
   in.note("kind");
   if (in.has("kind"))
     in.choice("kind", kMemberKinds);
-  else if (std::ranges::any_of(kOfSection, [&](auto name) { return in.has(name); }))
+  else if (!round && std::ranges::any_of(kOfSection, [&](auto name) { return in.has(name); }))
     in.issue({.code = ErrorCode::missing_field,
               .pointer = "kind",
               .hint = "rectangular_tube or flat_oval_tube, because the member has their fields"});
