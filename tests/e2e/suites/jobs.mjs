@@ -94,7 +94,7 @@ export const checks = {
     }
     await page.locator('[data-onward=files]').click();
     await page.locator('input[name=purpose][value=model]').check();
-    assert.deepEqual(await page.locator('#panel [data-media]').evaluateAll((nodes) => [...new Set(nodes.map((node) => node.dataset.media))]), ['image/vnd.dxf', 'application/x-dstv']);
+    assert.deepEqual(await page.locator('#panel [data-media]').evaluateAll((nodes) => [...new Set(nodes.map((node) => node.dataset.media))]), ['image/vnd.dxf', 'model/step', 'application/x-dstv']);
     const {target} = await shape('Round · outer diameter, wall');
     assert.equal(target.kind, 'round');
     await page.locator('[data-adds="/cutouts"]').waitFor();
