@@ -7,16 +7,9 @@ namespace tubecut::api {
 
 Product product_of(const section::Section& section, const std::string& member,
                    const Caption& caption) {
-  Product out{.id = member,
-              .name = "tube " + fixed(section.height, 3) + " x " + fixed(section.width, 3) + " x " +
-                      fixed(section.wall, 3) + " mm",
-              .revision = {}};
-  for (const auto& [key, text] : caption.reference) {
-    if (key == "part") out.id = text;
-    if (key == "revision") out.revision = text;
-  }
-  if (out.id.empty()) out.id = caption.input_sha256.substr(0, 16);
-  return out;
+  return product_of(
+      fixed(section.height, 3) + " x " + fixed(section.width, 3) + " x " + fixed(section.wall, 3),
+      member, caption);
 }
 
 std::string section_part_step(const part::SectionPartSpec& spec, const part::SectionPart& part,

@@ -109,17 +109,19 @@ Lies lies(const part::Part& part, const bevel::Hole& hole) {
 
 }  // namespace
 
-Product product_of(const joint::Target& tube, const std::string& member, const Caption& caption) {
-  Product out{
-      .id = member,
-      .name = "tube " + fixed(2.0 * tube.outer_radius, 3) + " x " + fixed(tube.wall, 3) + " mm",
-      .revision = {}};
+Product product_of(const std::string& size, const std::string& member, const Caption& caption) {
+  Product out{.id = member, .name = "tube " + size + " mm", .revision = {}};
   for (const auto& [key, text] : caption.reference) {
     if (key == "part") out.id = text;
     if (key == "revision") out.revision = text;
   }
   if (out.id.empty()) out.id = caption.input_sha256.substr(0, 16);
   return out;
+}
+
+Product product_of(const joint::Target& tube, const std::string& member, const Caption& caption) {
+  return product_of(fixed(2.0 * tube.outer_radius, 3) + " x " + fixed(tube.wall, 3), member,
+                    caption);
 }
 
 std::string bevel_table_step(const bevel::TableSpec& spec, const bevel::Table& table,

@@ -14,8 +14,6 @@ using Id = StepEntities::Id;
 constexpr int kRadiusDigits = 9;
 constexpr std::string_view kCubic = "(4,4),(0.,1.)";
 
-std::string logical(bool value) { return value ? ".T." : ".F."; }
-
 class Printer {
  public:
   Printer(const Brep& solid, StepEntities& entities, Pace& pace)
@@ -43,19 +41,10 @@ class Printer {
 
  private:
   Id print(const Brep::Face& face, const std::vector<Id>& edges) {
-    std::vector<Id> bounds;
-    for (const auto& loop : face.loops) {
-      std::vector<Id> uses;
-      for (const auto& [edge, forward] : loop)
-        uses.push_back(entities_.add("ORIENTED_EDGE('',*,*," + step_ref(edges[edge]) + "," +
-                                     logical(forward) + ")"));
-      const auto all = entities_.add("EDGE_LOOP(''," + step_refs(uses) + ")");
-      bounds.push_back(entities_.add((bounds.empty() ? "FACE_OUTER_BOUND(''," : "FACE_BOUND('',") +
-                                     step_ref(all) + ",.T.)"));
-    }
+    const auto bounds = entities_.bounds(face.loops, edges);
     const auto under = std::visit([&](const auto& of) { return surface(of); }, face.surface);
     return entities_.add("ADVANCED_FACE(" + step_string(face.name) + "," + step_refs(bounds) + "," +
-                         step_ref(under) + "," + logical(face.same) + ")");
+                         step_ref(under) + "," + step_logical(face.same) + ")");
   }
 
   std::vector<Id> points(const Brep::Points& all) {

@@ -52,6 +52,24 @@ std::string step_real(double value, int digits) {
 
 std::string step_string(std::string_view text) { return "'" + step_text(text) + "'"; }
 
+std::string step_logical(bool value) { return value ? ".T." : ".F."; }
+
+std::vector<StepEntities::Id> StepEntities::bounds(
+    const std::vector<std::vector<std::pair<std::size_t, bool>>>& loops,
+    const std::vector<Id>& edges) {
+  std::vector<Id> out;
+  for (const auto& loop : loops) {
+    std::vector<Id> uses;
+    for (const auto& [edge, forward] : loop)
+      uses.push_back(
+          add("ORIENTED_EDGE('',*,*," + step_ref(edges[edge]) + "," + step_logical(forward) + ")"));
+    const auto all = add("EDGE_LOOP(''," + step_refs(uses) + ")");
+    out.push_back(
+        add((out.empty() ? "FACE_OUTER_BOUND(''," : "FACE_BOUND('',") + step_ref(all) + ",.T.)"));
+  }
+  return out;
+}
+
 StepEntities::Id StepEntities::add(std::string_view entity) {
   ++last_;
   text_ += step_ref(last_);

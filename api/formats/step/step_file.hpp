@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace tubecut::api {
@@ -28,6 +29,10 @@ class StepEntities {
   /// A frame with the world's z, and x turned by `phi` about it.
   Id placement(const Eigen::Vector3d& origin, double phi = 0.0);
 
+  /// The bounds of a face, the outer one first; `edges`: of the solid, which its loops use.
+  std::vector<Id> bounds(const std::vector<std::vector<std::pair<std::size_t, bool>>>& loops,
+                         const std::vector<Id>& edges);
+
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
@@ -38,6 +43,8 @@ class StepEntities {
 };
 
 [[nodiscard]] std::string step_ref(StepEntities::Id id);
+/// ".T." or ".F."
+[[nodiscard]] std::string step_logical(bool value);
 /// "(#1,#2)"
 [[nodiscard]] std::string step_refs(const std::vector<StepEntities::Id>& ids);
 /// Returns a real: with a point, at most `digits` digits after it, without trailing zeros.

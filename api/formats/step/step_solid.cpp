@@ -32,8 +32,6 @@ constexpr double kClosed = 1e-4;
 /// Returns the number of digits: a volume depends on the mean rounding error, relative to the wall.
 int digits_for(double wall) { return wall < kThin ? 6 : 5; }
 
-std::string logical(bool value) { return value ? ".T." : ".F."; }
-
 /// Returns multiplicities and knots of a wall's spline from joint to joint: "(4,2,4),(0.,1.,2.)";
 /// degree 1 if all joints are full.
 std::string knots(const WallSpline& spline, std::size_t from, std::size_t to, int degree = 3) {
@@ -225,20 +223,11 @@ Id Printer::boundary() {
                                   step_ref(vertices[edge.to]) + "," + step_ref(along) + ",.T.)"));
   }
   for (const auto& face : solid_.faces) {
-    std::vector<Id> bounds;
-    for (const auto& loop : face.loops) {
-      std::vector<Id> uses;
-      for (const auto& [edge, forward] : loop)
-        uses.push_back(entities_.add("ORIENTED_EDGE('',*,*," + step_ref(edges[edge]) + "," +
-                                     logical(forward) + ")"));
-      const auto all = entities_.add("EDGE_LOOP(''," + step_refs(uses) + ")");
-      bounds.push_back(entities_.add((bounds.empty() ? "FACE_OUTER_BOUND(''," : "FACE_BOUND('',") +
-                                     step_ref(all) + ",.T.)"));
-    }
+    const auto bounds = entities_.bounds(face.loops, edges);
     const auto under = std::visit([&](const auto& of) { return surface(of); }, face.surface);
     faces.push_back(entities_.add("ADVANCED_FACE(" + step_string(face.name) + "," +
                                   step_refs(bounds) + "," + step_ref(under) + "," +
-                                  logical(face.same) + ")"));
+                                  step_logical(face.same) + ")"));
     if (face.cut) cut_faces_.push_back(faces.back());
   }
   const auto shell = entities_.add("CLOSED_SHELL(''," + step_refs(faces) + ")");

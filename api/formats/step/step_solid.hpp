@@ -61,6 +61,11 @@ class StepFile {
   Id context_ = 0;
 };
 
+/// Returns the file's name for a tube of a size: the reference's part takes precedence over
+/// `member`.
+[[nodiscard]] Product product_of(const std::string& size, const std::string& member,
+                                 const Caption& caption);
+
 /// A file of one solid.
 [[nodiscard]] std::string print_step(const TubeSolid& solid, const Product& product,
                                      const Caption& caption);
