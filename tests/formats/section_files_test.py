@@ -1,15 +1,18 @@
 """The files of tubes that are not round: DXF read by ezdxf, STL by admesh, templates at their size. Sizes, planes and tubes are drawn; every number
 that a file is held to is computed here, from the section's own lengths."""
 
+import io
+import json
 import math
 import random
 import re
 import xml.etree.ElementTree as xml
+import zipfile
 
 import step_reader
 from dstv_test import parse, rows_of
 from dxf_test import length, polylines, read
-from service import FormatTest, drawing_seed, main
+from service import FormatTest, drawing_seed, examples, main
 from stl_test import admesh, area, facets
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -291,6 +294,19 @@ class SectionFiles(FormatTest):
                 rows = self.service.text("parts", body, "format=csv").decode().splitlines()
                 wanted = sum(len(end["points"]["girth_mm"]) for end in answer["ends"].values())
                 self.assertEqual(sum(row.startswith(("start,", "finish,")) for row in rows), wanted)
+
+    def test_a_frames_packet_has_every_file_and_its_requests_give_its_parts(self):
+        """The call that comes after: each part's own request in the packet is answered by the part that the packet names."""
+        body = examples("frames")["rhs-gate"]
+        packet = zipfile.ZipFile(io.BytesIO(self.service.text("frames", body, "format=zip")))
+        parts = json.loads(packet.read("manifest.json"))["parts"]
+        self.assertEqual(sum(part["quantity"] for part in parts), len(body["members"]))
+        for part in parts:
+            with self.subTest(part["part"]):
+                self.assertEqual(part["left_out"], [])
+                self.assertEqual({f["format"] for f in part["files"]}, {"request", "work-order", "nc1", "dxf", "step", "csv"})
+                request = json.loads(packet.read(next(f["name"] for f in part["files"] if f["format"] == "request")))
+                self.assertEqual(self.service.answer("parts", request)["job"]["result_sha256"], part["result_sha256"])
 
     def test_what_shows_round_walls_is_refused_by_its_name(self):
         body, _ = cut_by_tube(self.rng)
