@@ -1,20 +1,17 @@
 #include "api/endpoints/cutout_codec.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <tuple>
 #include <utility>
 
-#include "api/formats/bevel_table_formats.hpp"
 #include "api/limits.hpp"
 #include "api/wire/bevel_names.hpp"
 #include "api/wire/cutout_names.hpp"
-#include "api/wire/tables.hpp"
+#include "core/cutout/flats.hpp"
 #include "core/cutout/rows.hpp"
-#include "core/math/rotation.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -33,7 +30,18 @@ constexpr double kTolerance = 0.01;  // mm, where the sampling has none
 struct Common {
   Preset preset;
   const bevel::TableSpec& once;
+  const section::Section* section;  // nullptr of a round tube
+  bool sure;                        // the request's tube was understood
+
+  /// Returns the radius of the circle that is as long as the girth.
+  [[nodiscard]] double radius() const {
+    const double radius =
+        section != nullptr ? section->outer().girth() / kTwoPi : once.target.outer_radius;
+    return std::max(radius, 1.0);
+  }
 };
+
+constexpr std::string_view kRoundTube = "requires a round target; ";
 
 Flat decode_place(Reader& in, std::string_view name) {
   const auto xy = in.column(name, {.min = 2, .max = 2}, kPlace);
@@ -69,6 +77,8 @@ double default_radius(const Common& common, const cutout::Spec& spec, const cuto
                       cutout::Lay lay) {
   const auto& tube = common.once.target;
   const bool sides = r.along > 0.0 && r.round > 0.0;
+  if (common.section != nullptr && !spec.as_cut && sides)
+    return std::min(0.5 * common.once.kerf, 0.5 * std::min(r.along, r.round));
   if (spec.as_cut || !sides || !(tube.inner_radius() > 0.0)) return 0.0;
   const cutout::Laying laying(tube, lay, false);
   const auto box = bounds(turned(cutout::rectangle(r.along, r.round, 0.0), spec.turn));
@@ -110,33 +120,86 @@ void decode_shape(Reader& in, const Common& common, cutout::Lay lay, cutout::Spe
   }
 }
 
-cutout::Anchor decode_anchor(Reader& in, double radius) {
+/// A field of the other kind of tube, or of another choice.
+void refuse(Reader& in, std::string_view name, const std::string& hint) {
+  in.note(name);
+  if (in.has(name))
+    in.issue(
+        {.code = ErrorCode::unsupported_combination, .pointer = std::string(name), .hint = hint},
+        in.find(name));
+}
+
+/// Places round a tube whose kind is unknown, because its own fields were refused.
+void decode_anywhere(Reader& in) {
+  in.note("offset_mm");
+  in.note("face");
+  if (in.has("face")) in.integer("face", 1, 4);
+  for (const char* name : {"phi_deg", "girth_mm", "offset_mm"}) in.optional_number(name);
+}
+
+void decode_on_section(Reader& in, const Common& common, cutout::Anchor& out) {
+  refuse(in, "phi_deg", std::string(kRoundTube) + "give face and offset_mm, or girth_mm");
+  if (in.has("phi_deg")) return decode_anywhere(in);
+  const auto which = in.exactly_one({"face", "girth_mm"});
+  if (which && *which == 1) {
+    refuse(in, "offset_mm", "goes with face");
+    out.phi = in.number("girth_mm", kPlace) / common.radius();
+    return;
+  }
+  if (!which) return in.note("offset_mm");
+  out.face = in.integer("face", 1, 4);
+  const bool known = in.understood("face");
+  const auto half =
+      known ? cutout::half_flat(section::Wall(*common.section), out.face) : kPlace.max;
+  out.offset = in.number("offset_mm", {.min = -half, .max = half}, 0.0);
+}
+
+cutout::Anchor decode_anchor(Reader& in, const Common& common) {
   using Anchor = cutout::Anchor;
   Anchor out{.z = in.number("z_mm", kOffset)};
   out.from = in.choice("from", Anchor::From::start);
   out.zero = in.choice("z_zero", Anchor::Zero::work_point);
+  out.opposite = in.flag("opposite", false);
+  if (!common.sure) {
+    decode_anywhere(in);
+    return out;
+  }
+  if (common.section != nullptr) {
+    decode_on_section(in, common, out);
+    return out;
+  }
   in.note("face");
-  if (in.has("face"))
+  if (in.has("face")) {
+    in.note("offset_mm");
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "face",
               .hint = "a round tube has no faces; give phi_deg or girth_mm"},
              in.find("face"));
-  else if (const auto which = in.exactly_one({"phi_deg", "girth_mm"}))
+    return out;
+  }
+  refuse(in, "offset_mm", "goes with face, which a round tube does not have");
+  if (const auto which = in.exactly_one({"phi_deg", "girth_mm"}))
     out.phi = *which == 0 ? in.angle("phi_deg", kAnyAngleDeg).rad()
-                          : in.number("girth_mm", kPlace) / std::max(radius, 1.0);
-  out.opposite = in.flag("opposite", false);
+                          : in.number("girth_mm", kPlace) / common.radius();
   return out;
 }
 
-/// A step round the tube, by its angle or its way on the outside.
-std::optional<double> decode_turn(Reader& in, double radius, bool required) {
-  in.note("pitch_deg");
+/// A step round the tube, by its angle or its way on the outside; on a section, by its way.
+std::optional<double> decode_turn(Reader& in, const Common& common, bool required) {
   in.note("pitch_round_mm");
-  if (!required && !in.has("pitch_deg") && !in.has("pitch_round_mm")) return std::nullopt;
-  const auto which = in.exactly_one({"pitch_deg", "pitch_round_mm"});
+  const bool round = common.section == nullptr || !common.sure;
+  if (round)
+    in.note("pitch_deg");
+  else
+    refuse(in, "pitch_deg", std::string(kRoundTube) + "give pitch_round_mm, or pattern faces");
+  if (!round && in.has("pitch_deg")) return std::nullopt;
+  const bool by_angle = round && in.has("pitch_deg");
+  if (!required && !by_angle && !in.has("pitch_round_mm")) return std::nullopt;
+  const auto which =
+      round ? in.exactly_one({"pitch_deg", "pitch_round_mm"}) : std::optional<std::size_t>(1);
   if (!which) return 0.0;
   const double turn = *which == 0 ? in.angle("pitch_deg", kTurnDeg).rad()
-                                  : in.number("pitch_round_mm", kPlace) / std::max(radius, 1.0);
+                                  : in.number("pitch_round_mm", kPlace) / common.radius();
   if (turn == 0.0 && in.understood(*which == 0 ? "pitch_deg" : "pitch_round_mm"))
     in.issue({.code = ErrorCode::out_of_range,
               .pointer = *which == 0 ? "pitch_deg" : "pitch_round_mm",
@@ -145,7 +208,7 @@ std::optional<double> decode_turn(Reader& in, double radius, bool required) {
   return turn;
 }
 
-cutout::Grid decode_grid(Reader& in, double radius) {
+cutout::Grid decode_grid(Reader& in, const Common& common) {
   using Stagger = cutout::Grid::Stagger;
   cutout::Grid out;
   std::tie(out.along, out.pitch) = in.object("along", [](Reader& a) {
@@ -154,14 +217,14 @@ cutout::Grid decode_grid(Reader& in, double radius) {
   });
   std::tie(out.round, out.turn) = in.object("round", [&](Reader& r) {
     const int count = r.integer("count", 1, kMost);
-    return std::pair{count, decode_turn(r, radius, true).value_or(0.0)};
+    return std::pair{count, decode_turn(r, common, true).value_or(0.0)};
   });
   out.stagger = in.choice("stagger", Stagger::none);
   in.note("stagger_mm");
   const bool along = out.stagger == Stagger::along;
   if (out.stagger != Stagger::none) {
-    const double half = 0.5 * (along ? out.pitch : out.turn * radius);
-    out.offset = in.number("stagger_mm", kPlace, half) / (along ? 1.0 : std::max(radius, 1.0));
+    const double half = 0.5 * (along ? out.pitch : out.turn * common.radius());
+    out.offset = in.number("stagger_mm", kPlace, half) / (along ? 1.0 : common.radius());
   } else if (in.has("stagger_mm")) {
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "stagger_mm",
@@ -171,27 +234,79 @@ cutout::Grid decode_grid(Reader& in, double radius) {
   return out;
 }
 
-cutout::Pattern decode_pattern(Reader& in, double radius) {
-  enum class Kind { linear, round, grid };
-  static constexpr std::array kKinds{Option<Kind>{"linear", Kind::linear},
-                                     Option<Kind>{"round", Kind::round},
-                                     Option<Kind>{"grid", Kind::grid}};
-  const auto kind = in.tag("kind", kKinds);
-  if (!kind) return cutout::Once{};
-  if (*kind == Kind::grid) return decode_grid(in, radius);
+cutout::Linear decode_linear(Reader& in, const Common& common) {
   const int count = in.integer("count", 1, 10 * kMost);
-  if (*kind == Kind::round) {
-    const auto turn = decode_turn(in, radius, false);
-    return cutout::Round{.count = count, .turn = turn.value_or(kTwoPi / std::max(count, 1))};
-  }
   const auto pitch = in.optional_number("pitch_mm", kPlace);
-  const auto turn = decode_turn(in, radius, !pitch);
+  const auto turn = decode_turn(in, common, !pitch);
   if (pitch && *pitch == 0.0 && !turn)
     in.issue({.code = ErrorCode::out_of_range,
               .pointer = "pitch_mm",
               .got = Json{0.0},
               .hint = "a step of 0 puts them on each other"});
-  return cutout::Linear{.count = count, .pitch = pitch.value_or(0.0), .turn = turn.value_or(0.0)};
+  return {.count = count, .pitch = pitch.value_or(0.0), .turn = turn.value_or(0.0)};
+}
+
+cutout::Faces decode_faces(Reader& in, const Common& common) {
+  cutout::Faces out;
+  std::set<int> before;
+  for (const double face : in.column("faces", {.min = 1, .max = 4}, {.min = 1.0, .max = 4.0})) {
+    const int number = static_cast<int>(face);
+    if (number != face || !before.insert(number).second)
+      in.issue({.code = ErrorCode::bad_choice,
+                .pointer = "faces",
+                .got = Json{face},
+                .hint = "whole numbers from 1 to 4, each once"});
+    out.faces.push_back(number);
+  }
+  in.note("each");
+  if (!in.has("each")) return out;
+  enum class Kind { linear, grid };
+  static constexpr std::array kKinds{Option<Kind>{"linear", Kind::linear},
+                                     Option<Kind>{"grid", Kind::grid}};
+  in.object("each", [&](Reader& e) {
+    const auto kind = e.tag("kind", kKinds);
+    if (!kind) return 0;
+    if (*kind == Kind::grid)
+      out.each = decode_grid(e, common);
+    else
+      out.each = decode_linear(e, common);
+    return 0;
+  });
+  return out;
+}
+
+cutout::Round decode_round(Reader& in, const Common& common) {
+  const int count = in.integer("count", 1, 10 * kMost);
+  const auto turn = decode_turn(in, common, false);
+  return {.count = count, .turn = turn.value_or(kTwoPi / std::max(count, 1))};
+}
+
+cutout::Pattern decode_pattern(Reader& in, const Common& common) {
+  enum class Kind { linear, round, grid, faces };
+  static constexpr std::array kKinds{
+      Option<Kind>{"linear", Kind::linear}, Option<Kind>{"round", Kind::round},
+      Option<Kind>{"grid", Kind::grid}, Option<Kind>{"faces", Kind::faces}};
+  const auto kind = in.tag("kind", kKinds);
+  if (!kind) return cutout::Once{};
+  const bool on_section = common.section != nullptr;
+  const auto unfit = [&](const char* hint) {
+    if (!common.sure) return;
+    in.issue({.code = ErrorCode::unsupported_combination, .pointer = "kind", .hint = hint},
+             in.find("kind"));
+  };
+  switch (*kind) {
+    case Kind::linear:
+      return decode_linear(in, common);
+    case Kind::grid:
+      return decode_grid(in, common);
+    case Kind::round:
+      if (on_section) unfit("requires a round target; pattern faces repeats on several faces");
+      return decode_round(in, {common.preset, common.once, nullptr, common.sure});
+    case Kind::faces:
+      if (!on_section) unfit("a round tube has no faces; pattern round goes round it");
+      return decode_faces(in, common);
+  }
+  return cutout::Once{};
 }
 
 cutout::Spec decode_cutout(Reader& in, const Common& common, std::set<std::string>& ids) {
@@ -209,17 +324,17 @@ cutout::Spec decode_cutout(Reader& in, const Common& common, std::set<std::strin
     decode_shape(s, common, lay, out);
     return 0;
   });
-  const double radius = common.once.target.outer_radius;
-  out.at = in.object("at", [&](Reader& a) { return decode_anchor(a, radius); });
+  out.at = in.object("at", [&](Reader& a) { return decode_anchor(a, common); });
   in.note("pattern");
   if (in.has("pattern"))
-    out.pattern = in.object("pattern", [&](Reader& p) { return decode_pattern(p, radius); });
+    out.pattern = in.object("pattern", [&](Reader& p) { return decode_pattern(p, common); });
   return out;
 }
 
 }  // namespace
 
-part::CutoutSpecs decode_cutouts(Reader& in, Preset preset, const bevel::TableSpec& once) {
+part::CutoutSpecs decode_cutouts(Reader& in, Preset preset, const bevel::TableSpec& once,
+                                 const section::Section* section, bool sure) {
   part::CutoutSpecs out{
       .kerf = once.kerf,
       .tolerance = once.sampling.tolerance ? once.sampling.tolerance->value : kTolerance,
@@ -228,144 +343,8 @@ part::CutoutSpecs decode_cutouts(Reader& in, Preset preset, const bevel::TableSp
   if (!in.has("cutouts")) return out;
   std::set<std::string> ids;
   out.all = in.array("cutouts", {.min = 0, .max = cutout::kMostCutouts}, [&](Reader& c) {
-    return decode_cutout(c, {preset, once}, ids);
+    return decode_cutout(c, {preset, once, section, sure}, ids);
   });
-  return out;
-}
-
-namespace {
-
-/// How far a mould reaches from its anchor on the outside.
-struct Reach {
-  double phi_from, phi_to, z_from, z_to;
-};
-Reach reach_of(const bevel::Hole& rows) {
-  const auto phi = std::ranges::minmax(rows.phi), z = std::ranges::minmax(rows.z);
-  return {phi.min, phi.max, z.min, z.max};
-}
-
-void encode_instance(const part::PartSpec& spec, const part::Part& part,
-                     const cutout::Instance& one, const Reach& reach, Writer& o) {
-  const double radius = spec.target.outer_radius;
-  const double middle = one.phi + 0.5 * (reach.phi_from + reach.phi_to);
-  const double turn = math::whole_turn(middle) - middle;
-  o.field("id", one.name);
-  o.degrees("phi_deg", one.phi);
-  o.field("girth_mm", radius * one.phi);
-  o.field("z_mm", one.z);
-  o.field("from_finish_mm", part.lengths.longest - one.z);
-  o.field("z_from_mm", one.z + reach.z_from);
-  o.field("z_to_mm", one.z + reach.z_to);
-  o.field("girth_from_mm", radius * (one.phi + reach.phi_from + turn));
-  o.field("girth_to_mm", radius * (one.phi + reach.phi_to + turn));
-}
-
-void encode_group(const part::PartSpec& spec, const part::Part& part,
-                  const std::vector<std::size_t>& group, Writer& o) {
-  const auto& layout = part.cutouts;
-  const auto& first = layout.instances[group.front()];
-  const auto& mould = layout.mould_of(first);
-  o.field("id", spec.cutouts.all[first.asked].id);
-  o.field("side", mould.laying.far() ? "far" : "near");
-  o.field("wall", name_of(mould.laying.lay()));
-  o.object("points", [&](Writer& p) { cutout_columns(cutout::placed(layout, first)).write(p); });
-  o.field("b_sign", kBSignInPart);
-  o.field("scrap", "inside");
-  o.field("turns", 0);
-  o.field("length_mm", mould.rows.length_total);
-  o.field("area_outer_mm2", mould.taken.outer_area);
-  o.field("area_inner_mm2", mould.taken.inner_area);
-  o.field("volume_mm3", mould.taken.volume);
-  o.field("mass_kg", mould.taken.volume * 1e-9 * spec.density);
-  const auto reach = reach_of(mould.rows);
-  o.array("instances", group, [&](Writer& each, std::size_t i) {
-    each.object([&](Writer& w) { encode_instance(spec, part, layout.instances[i], reach, w); });
-  });
-}
-
-/// The instances of one asked cut-out on one side are a group.
-std::vector<std::vector<std::size_t>> groups_of(const cutout::Layout& layout) {
-  std::vector<std::vector<std::size_t>> out;
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;
-  for (std::size_t i = 0; i < layout.instances.size(); ++i) {
-    const auto& one = layout.instances[i];
-    const auto [at, fresh] = known.try_emplace({one.asked, one.mould}, out.size());
-    if (fresh) out.emplace_back();
-    out[at->second].push_back(i);
-  }
-  return out;
-}
-
-void encode_web(std::string_view name, const part::CutoutWeb& web, const part::Part& part,
-                Writer& w) {
-  using Beside = part::CutoutWeb::Beside;
-  const auto& all = part.cutouts.instances;
-  w.object(name, [&](Writer& o) {
-    o.field("width_mm", web.width);
-    o.field("radius_mm", web.radius);
-    o.field("cutout", all[web.cutout].name);
-    o.field("beside", name_of(web.beside));
-    if (web.beside == Beside::cutout) o.field("other", all[web.other].name);
-    if (web.beside == Beside::hole) o.field("other_hole", web.other);
-    const auto place = [&](std::string_view which, const part::EdgePoint& p) {
-      o.object(which, [&](Writer& at) {
-        at.degrees("phi_deg", p.phi);
-        at.field("z_mm", p.z);
-      });
-    };
-    place("from", web.from);
-    place("to", web.to);
-  });
-}
-
-}  // namespace
-
-void encode_cutouts(const part::PartSpec& spec, const part::Part& part, bool seam_known,
-                    Writer& w) {
-  const auto& layout = part.cutouts;
-  if (layout.empty()) return;
-  w.array("cutouts", groups_of(layout), [&](Writer& each, const std::vector<std::size_t>& group) {
-    each.object([&](Writer& o) { encode_group(spec, part, group, o); });
-  });
-  const auto& report = part.cutout_report;
-  w.object("cutout_report", [&](Writer& o) {
-    if (report.between) encode_web("web", *report.between, part, o);
-    if (report.to_end) encode_web("to_end", *report.to_end, part, o);
-    if (seam_known && report.to_seam)
-      o.object("to_seam", [&](Writer& s) {
-        s.field("girth_mm", report.to_seam->girth);
-        s.field("cutout", layout.instances[report.to_seam->cutout].name);
-      });
-    o.object("net_section", [&](Writer& n) {
-      n.field("z_mm", report.net.z);
-      n.field("area_mm2", report.net.area);
-      n.field("share", report.net.share);
-    });
-  });
-}
-
-std::vector<std::size_t> places_in_answer(const cutout::Layout& layout) {
-  std::vector<std::size_t> out(layout.instances.size());
-  std::size_t next = 0;
-  for (const auto& group : groups_of(layout))
-    for (const auto i : group) out[i] = next++;
-  return out;
-}
-
-std::vector<Measure> measures_of_cutouts(const part::PartSpec& spec, const part::Part& part,
-                                         bool seam_known) {
-  std::vector<Measure> out;
-  if (part.cutouts.empty()) return out;
-  const auto& report = part.cutout_report;
-  for (const auto* web : {&report.between, &report.to_end})
-    if (*web) out.push_back({"min_web_mm", (*web)->width});
-  if (report.to_end) out.push_back({"min_hole_to_end_mm", report.to_end->width});
-  if (seam_known && report.to_seam) out.push_back({"min_seam_to_hole_mm", report.to_seam->girth});
-  for (const auto& one : spec.cutouts.all)
-    if (const auto size = cutout::least_size(one.shape)) {
-      out.push_back({"min_diameter_mm", *size});
-      out.push_back({"min_diameter_per_wall", *size / spec.target.wall});
-    }
   return out;
 }
 

@@ -83,10 +83,13 @@ bevel::HoleSpec hole_options(const bevel::TableSpec& once) {
 void refuse_round_part(Reader& in, Preset preset) {
   constexpr std::string_view kRoundOnly = "requires a round target";
   in.choice("datum", kOnly<Datum::up>, Datum::up);
-  refuse_fields(in, {"holes", "cutouts", "seam_deg"}, kRoundOnly);
-  if (preset == Preset::tube_laser)
-    for (const auto name : {"min_tongue_mm", "min_web_mm", "min_hole_to_end_mm"})
-      refuse_limit(in, name, kRoundOnly);
+  refuse_fields(in, {"holes", "seam_deg"}, kRoundOnly);
+  if (preset == Preset::tube_laser) refuse_limit(in, "min_tongue_mm", kRoundOnly);
+  if (preset == Preset::tube_laser && !in.has("cutouts"))
+    for (const auto name : {"min_web_mm", "min_hole_to_end_mm"})
+      refuse_limit(in, name, "requires cutouts, or a round target");
+  if (preset == Preset::tube_laser || in.has("cutouts"))
+    refuse_limit(in, "min_seam_to_hole_mm", kRoundOnly);
 }
 
 void decode_member(Reader& in, PartRequest& out) {
@@ -99,6 +102,7 @@ void decode_member(Reader& in, PartRequest& out) {
   in.note("up");
   if (in.has("up")) m.up = in.vector3("up", kComponent);
   const bool found = m.member < m.node.members.size();
+  const bool sure = found && in.sound("members");
   const bool up = m.up || (found && m.node.members[m.member].up);
   if (out.section) {
     refuse_round_part(in, out.preset);
@@ -110,12 +114,15 @@ void decode_member(Reader& in, PartRequest& out) {
   }
   decode_cut(in, false, out.preset, m.cut);
   decode_once(in, out.preset, m.cut);
-  if (out.section) return refuse_round_only(in, m.cut);
+  if (out.section) {
+    out.part.cutouts = decode_cutouts(in, out.preset, m.cut, &out.section->section, sure);
+    return refuse_round_only(in, m.cut);
+  }
   if (found) {
     const auto& own = m.node.members[m.member];
     m.cut.target = {.outer_radius = own.outer_radius, .wall = own.wall};
   }
-  out.part.cutouts = decode_cutouts(in, out.preset, m.cut);
+  out.part.cutouts = decode_cutouts(in, out.preset, m.cut, nullptr, sure);
   in.note("holes");
   if (!in.has("holes")) return;
   const double radius = found ? m.node.members[m.member].outer_radius : kDiameter.min;
@@ -183,6 +190,8 @@ void decode_section_part(Reader& in, PartRequest& out) {
   once.target = target_of(*out.section);
   decode_once(in, out.preset, once);
   decode_ends(in, once, out);
+  out.part.cutouts =
+      decode_cutouts(in, out.preset, once, &out.section->section, in.sound("target"));
   out.of_section.partners = decode_section_marks(in, out.section->section.outer().girth());
 }
 
@@ -198,7 +207,7 @@ void decode_direct(Reader& in, PartRequest& out) {
   decode_once(in, out.preset, once);
   decode_ends(in, once, out);
   p.partners = decode_marks(in);
-  p.cutouts = decode_cutouts(in, out.preset, once);
+  p.cutouts = decode_cutouts(in, out.preset, once, nullptr, in.sound("target"));
   in.note("holes");
   if (!in.has("holes")) return;
   in.array("holes", kHoles, [&](Reader& h) {
@@ -270,7 +279,7 @@ PartRequest decode_part_request(Reader& in, Tubes tubes) {
     decode_section_part(in, out);
   else
     decode_direct(in, out);
-  if (in.understood("datum")) check_seam_limit(in, out.preset, out.seam_known());
+  if (in.understood("datum") && !out.section) check_seam_limit(in, out.preset, out.seam_known());
   const auto blank = decode_blank(in);
   const double density = in.number("density_kg_m3", kDensity, 7850.0);
   out.part.clamping = blank.clamping;
@@ -289,7 +298,8 @@ part::SectionPartSpec section_part_of(const SectionTarget& target, const part::P
           .name = part.name,
           .clamping = part.clamping,
           .facing = part.facing,
-          .density = part.density};
+          .density = part.density,
+          .cutouts = part.cutouts};
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
-#include "api/endpoints/cutout_codec.hpp"
+#include "api/endpoints/cutout_answer.hpp"
 #include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
@@ -78,18 +78,6 @@ void encode_end(const PartRequest& spec, const Parts::Out& out, bool finish, Wri
   if (out.laser) encode_end_report(end.table, finish ? out.laser->finish : out.laser->start, w);
 }
 
-void encode_sequence(const part::Part& part, Writer& w) {
-  const auto places = places_in_answer(part.cutouts);
-  w.array("sequence", part.sequence, [&](Writer& each, const Step& step) {
-    each.object([&](Writer& o) {
-      o.field("what", name_of(step.what));
-      o.field("index", step.what == Step::What::cutout ? places[step.index] : step.index);
-      o.field("z_from_mm", step.z_from);
-      o.field("z_to_mm", step.z_to);
-    });
-  });
-}
-
 /// `PrintSection`: nullptr if the format prints round parts only.
 template <auto Print, auto PrintSection = nullptr>
 std::string print(const PartRequest& spec, const Parts::Out& out, const Caption& caption) {
@@ -122,6 +110,18 @@ void encode_lengths(const part::Lengths& lengths, Writer& o) {
   o.field("weld_mm", lengths.weld);
   o.field("volume_mm3", lengths.volume);
   o.field("mass_kg", lengths.mass);
+}
+
+void encode_sequence(const std::vector<Step>& sequence, const cutout::Layout& cutouts, Writer& w) {
+  const auto places = places_in_answer(cutouts);
+  w.array("sequence", sequence, [&](Writer& each, const Step& step) {
+    each.object([&](Writer& o) {
+      o.field("what", name_of(step.what));
+      o.field("index", step.what == Step::What::cutout ? places[step.index] : step.index);
+      o.field("z_from_mm", step.z_from);
+      o.field("z_to_mm", step.z_to);
+    });
+  });
 }
 
 void encode_dimension(Writer& each, const part::CheckDimension& d) {
@@ -187,7 +187,7 @@ std::vector<Measure> Parts::measure(const Spec& spec, const Out& out) {
                            {"max_extra_bevel_deg", extra * kDegPerRad},
                            {"max_b_deg", b * kDegPerRad}};
   if (out.laser) add_laser(spec, out, all);
-  for (const auto& one : measures_of_cutouts(spec.part, out, spec.seam_known()))
+  for (const auto& one : measures_of_cutouts(cutouts_of(spec.part, out), spec.seam_known()))
     add_worst(one, all);
   return all;
 }
@@ -209,7 +209,7 @@ void Parts::encode(const Spec& spec, const Out& out, Writer& w) {
       encode_hole(asked.hole, placed.hole, o);
     });
   });
-  encode_cutouts(spec.part, out, spec.seam_known(), w);
+  encode_cutouts(cutouts_of(spec.part, out), spec.seam_known(), w);
   w.degrees("clocking_between_ends_deg", out.clocking);
   w.object("lengths", [&](Writer& o) { encode_lengths(out.lengths, o); });
   w.array("check_dimensions", out.check_dimensions, encode_dimension);
@@ -223,7 +223,7 @@ void Parts::encode(const Spec& spec, const Out& out, Writer& w) {
       o.field("z_to_mm", mark.z_to);
     });
   });
-  encode_sequence(out, w);
+  encode_sequence(out.sequence, out.cutouts, w);
   if (out.laser) encode_webs(out.laser->webs, spec.seam_known(), w);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "api/endpoints/cutout_answer.hpp"
 #include "api/endpoints/part_codec.hpp"
 #include "api/endpoints/place_text.hpp"
 #include "api/endpoints/section_bevel_table.hpp"
@@ -69,6 +70,8 @@ std::vector<Measure> measures_of(const PartRequest& spec, const part::SectionPar
   std::vector<Measure> out;
   for (const auto* end : {&part.start, &part.finish})
     for (const auto& one : measures_of(end->spec, end->own)) add_worst(one, out);
+  for (const auto& one : measures_of_cutouts(cutouts_of(spec.of_section, part), false))
+    add_worst(one, out);
   // A square end of the preset has a reach too.
   if (spec.preset == Preset::tube_laser)
     for (const auto* end : {&part.start, &part.finish})
@@ -86,6 +89,7 @@ void encode_part(const PartRequest& spec, const part::SectionPart& part, Writer&
     ends.object("start", [&](Writer& o) { encode_end(spec, part, false, o); });
     ends.object("finish", [&](Writer& o) { encode_end(spec, part, true, o); });
   });
+  encode_cutouts(cutouts_of(spec.of_section, part), false, w);
   w.degrees("clocking_between_ends_deg", part.clocking);
   w.object("lengths", [&](Writer& o) { encode_lengths(part.lengths, o); });
   std::vector<double> lengths, corners;
@@ -107,14 +111,7 @@ void encode_part(const PartRequest& spec, const part::SectionPart& part, Writer&
       o.field("z_to_mm", mark.z_to);
     });
   });
-  w.array("sequence", part.sequence, [&](Writer& each, const part::Step& step) {
-    each.object([&](Writer& o) {
-      o.field("what", name_of(step.what));
-      o.field("index", step.index);
-      o.field("z_from_mm", step.z_from);
-      o.field("z_to_mm", step.z_to);
-    });
-  });
+  encode_sequence(part.sequence, part.cutouts, w);
 }
 
 }  // namespace tubecut::api

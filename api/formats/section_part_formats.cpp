@@ -1,5 +1,6 @@
 #include "api/formats/section_part_formats.hpp"
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "api/formats/csv.hpp"
 #include "api/formats/drawing/development.hpp"
 #include "api/formats/drawing/order/section_work_order.hpp"
+#include "api/formats/drawing/part_edges.hpp"
 #include "api/formats/drawing/pdf_sheets.hpp"
 #include "api/formats/drawing/svg_sheets.hpp"
 #include "api/formats/drawing/wrap_template.hpp"
@@ -17,14 +19,23 @@
 
 namespace tubecut::api {
 
-std::string section_part_csv(const part::SectionPartSpec&, const part::SectionPart& part,
+std::string section_part_csv(const part::SectionPartSpec& spec, const part::SectionPart& part,
                              const Caption& caption) {
   if (caption.view == "check_dimensions")
     return Csv(caption).table(dimension_columns(part.check_dimensions)).print();
+  std::vector<std::pair<std::string, Columns>> cuts;
+  const double radius = spec.section.outer().girth() / kTwoPi;
+  for (const auto& step : part.sequence)
+    if (step.what == part::Step::What::cutout)
+      cuts.emplace_back(
+          "cut-out " + cutout_tag(part.cutouts, step.index),
+          flat_cutout_columns(cutout::placed(part.cutouts, part.cutouts.instances[step.index]),
+                              radius));
+  cuts.emplace_back("finish", bevel_columns(part.finish.spec, part.finish.table));
+  cuts.emplace_back("start", bevel_columns(part.start.spec, part.start.table));
   return Csv(caption)
       .remark(std::string("b_sign: ").append(kBSignInPart))
-      .stacked("cut", {{"finish", bevel_columns(part.finish.spec, part.finish.table)},
-                       {"start", bevel_columns(part.start.spec, part.start.table)}})
+      .stacked("cut", cuts)
       .print();
 }
 

@@ -16,7 +16,8 @@ template <>
 inline constexpr auto kNames<cutout::Lay> =
     std::to_array<Option<cutout::Lay>>({{"developed", cutout::Lay::developed},
                                         {"prism", cutout::Lay::prism},
-                                        {"square_from_bore", cutout::Lay::bored}});
+                                        {"square_from_bore", cutout::Lay::bored},
+                                        {"flat", cutout::Lay::flat}});
 template <>
 inline constexpr auto kNames<cutout::Anchor::From> = std::to_array<Option<cutout::Anchor::From>>(
     {{"start", cutout::Anchor::From::start}, {"finish", cutout::Anchor::From::finish}});

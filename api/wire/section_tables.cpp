@@ -81,6 +81,20 @@ std::vector<std::string> section_bevel_column_names(const bevel::TableSpec& spec
   return out;
 }
 
+Columns flat_cutout_columns(const bevel::Hole& rows, double radius) {
+  const auto girth = [&](std::vector<double> phi) {
+    for (double& one : phi) one *= radius;
+    return phi;
+  };
+  return Columns()
+      .column("girth_mm", girth(rows.phi))
+      .column("z_mm", rows.z)
+      .column("developed_mm", rows.developed)
+      .degrees("b_deg", rows.b)
+      .column("torch_girth_mm", girth(rows.torch_phi))
+      .column("torch_z_mm", rows.torch_z);
+}
+
 std::string_view event_name(joint::SectionEventKind kind) {
   switch (kind) {
     case joint::SectionEventKind::junction:

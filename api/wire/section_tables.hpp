@@ -6,6 +6,7 @@
 
 #include "api/wire/columns.hpp"
 #include "api/wire/writer.hpp"
+#include "core/bevel/hole/hole.hpp"
 #include "core/bevel/section/section_table.hpp"
 #include "core/joint/section/section_intersection.hpp"
 
@@ -22,6 +23,10 @@ namespace tubecut::api {
 [[nodiscard]] Columns bevel_columns(const bevel::TableSpec& spec, const bevel::SectionTable& table);
 /// Returns the names of the columns that such a table has.
 [[nodiscard]] std::vector<std::string> section_bevel_column_names(const bevel::TableSpec& spec);
+
+/// Returns the edge and the torch's axis of a cut-out on a flat; `radius` is that of the circle
+/// that is as long as the girth. On the bore, both lie at the same places of the face.
+[[nodiscard]] Columns flat_cutout_columns(const bevel::Hole& rows, double radius);
 
 /// Returns the name of an event on the wire.
 [[nodiscard]] std::string_view event_name(joint::SectionEventKind kind);

@@ -6,6 +6,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/cutout/flats.hpp"
 #include "core/cutout/rows.hpp"
 #include "core/cutout/sizes.hpp"
 #include "core/math/rotation.hpp"
@@ -55,6 +56,11 @@ bool alike(const Segment& a, const Segment& b) {
   return a.from == b.from && a.to == b.to && a.centre == b.centre && a.sweep == b.sweep;
 }
 
+Laying laying_of(const Spec& spec, const Ground& ground, bool far) {
+  if (ground.section) return {ground.section->section(), far};
+  return {ground.tube, lay_of(spec.wall, spec.tilt), far};
+}
+
 /// Finds the mould of one side, or makes it.
 Result<std::size_t> mould_of(const Spec& spec, const Chain& chain, const Laying& laying,
                              const Ground& ground, std::vector<Mould>& all) {
@@ -77,7 +83,7 @@ Result<std::size_t> mould_of(const Spec& spec, const Chain& chain, const Laying&
 /// The moulds of a spec, near side first.
 Result<std::vector<std::size_t>> moulds_of(const Spec& spec, const Ground& ground,
                                            std::vector<Mould>& all) {
-  const Laying near(ground.tube, lay_of(spec.wall, spec.tilt), false);
+  const auto near = laying_of(spec, ground, false);
   if (auto issues = check_sizes(spec, near, ground.kerf); !issues.empty())
     return tl::unexpected(Error{std::move(issues)});
   TRY(const auto chain, chain_of(spec));
@@ -86,7 +92,7 @@ Result<std::vector<std::size_t>> moulds_of(const Spec& spec, const Ground& groun
   std::vector<std::size_t> out;
   for (const bool far : {false, true}) {
     if (far && spec.wall != Wall::through) continue;
-    TRY(const auto found, mould_of(spec, chain, Laying(ground.tube, near.lay(), far), ground, all));
+    TRY(const auto found, mould_of(spec, chain, laying_of(spec, ground, far), ground, all));
     out.push_back(found);
   }
   return out;
@@ -137,16 +143,24 @@ Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground) {
     if (!moulds) refuse(k, std::move(moulds).error());
     if (!all) refuse(k, std::move(all).error());
     if (!moulds || !all) continue;
+    const auto first = out.instances.size();
     const double z = height(spec.at, ground), phi = spec.at.phi + (spec.at.opposite ? kPi : 0.0);
     for (const auto& step : *all)
       for (const auto mould : *moulds) {
-        out.instances.push_back({.asked = k,
-                                 .name = spec.id + step.suffix,
-                                 .mould = mould,
-                                 .phi = math::whole_turn(phi + step.turn),
-                                 .z = z + step.along});
+        const double here = math::whole_turn(phi + step.turn);
+        Instance one{.asked = k,
+                     .name = spec.id + step.suffix,
+                     .mould = mould,
+                     .phi = here,
+                     .phi_inner = here,
+                     .z = z + step.along};
+        if (ground.section)
+          put_on_face(*ground.section, spec.at, step, out.moulds[mould].laying.far(), one);
+        out.instances.push_back(std::move(one));
         total += out.moulds[mould].rows.phi.size();
       }
+    if (ground.section)
+      if (auto issue = beyond_flat(spec, out, first, *ground.section)) refuse(k, {*issue});
     if (total > kMostRows) {
       refuse(k, {{.code = ErrorCode::out_of_range,
                   .got = static_cast<double>(total),
@@ -161,8 +175,10 @@ Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground) {
 
 bevel::Hole placed(const Layout& layout, const Instance& one) {
   auto out = layout.mould_of(one).rows;
-  for (auto* column : {&out.phi, &out.phi_inner, &out.torch_phi, &out.torch_phi_inner})
+  for (auto* column : {&out.phi, &out.torch_phi})
     for (double& phi : *column) phi += one.phi;
+  for (auto* column : {&out.phi_inner, &out.torch_phi_inner})
+    for (double& phi : *column) phi += one.phi_inner;
   for (auto* column : {&out.z, &out.z_inner, &out.torch_z, &out.torch_z_inner})
     for (double& z : *column) z += one.z;
   return out;

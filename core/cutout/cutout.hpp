@@ -40,8 +40,11 @@ struct Anchor {
   double z = 0.0;  // mm, into the part
   From from = From::start;
   Zero zero = Zero::work_point;
-  double phi = 0.0;  // rad, in the part's frame
+  double phi = 0.0;  // rad, in the part's frame; on a section the share of its girth, or
   bool opposite = false;
+  // On a section, instead of phi: 1 to 4, and mm from the middle of this face as s grows.
+  int face = 0;
+  double offset = 0.0;
 };
 
 struct Spec {
@@ -58,6 +61,7 @@ struct Spec {
 /// The tube that is cut, and the heights that anchors count from.
 struct Ground {
   joint::Target tube;
+  std::optional<section::Wall> section = {};  // of a tube that is not round
   double start_long = 0.0, start_work = 0.0;
   double finish_long = 0.0, finish_work = 0.0;
   double kerf = 0.0;
@@ -83,7 +87,10 @@ struct Instance {
   std::size_t asked = 0;  // index of the spec
   std::string name;       // "id", in a pattern "id.3" or "id.3.1"
   std::size_t mould = 0;
-  double phi = 0.0, z = 0.0;  // of the anchor, on the near side
+  // Of the anchor, on the near side. The bore of a section has phases of its own.
+  double phi = 0.0, phi_inner = 0.0, z = 0.0;
+  int face = 0;         // of a section
+  double offset = 0.0;  // mm, of the anchor from the middle of this face
 };
 
 struct Layout {
@@ -94,10 +101,12 @@ struct Layout {
   [[nodiscard]] bool empty() const { return instances.empty(); }
 };
 
-/// Lays every cut-out on its wall.
+/// Lays every cut-out on its wall. On a section, each lies within one flat of it.
 ///
 /// Errors  at cutouts/k: out_of_range, contour_open, contour_crosses, open_profile (shape),
-///         pattern_wraps, out_of_range (pattern), torch_range (tilt). All of them at once.
+///         pattern_wraps, out_of_range (pattern), torch_range (tilt). Of a section: out_of_range
+///         (shape, at/offset, at/girth or pattern: beyond the flat), unsupported_combination
+///         (pattern/faces: without the anchor's own face). All of them at once.
 /// Source  docs/theory/cutouts.md.
 [[nodiscard]] Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground);
 
@@ -110,6 +119,8 @@ struct Layout {
 
 /// What a mould takes of the wall, mm^3: ring by ring, each by Gauss along the segments.
 [[nodiscard]] double volume_by_rings(const Mould& mould);
+/// What all cut-outs take.
+[[nodiscard]] double volume_by_rings(const Layout& layout);
 
 /// "cutouts/3": where errors about a spec point.
 [[nodiscard]] std::string path_of(std::size_t asked);

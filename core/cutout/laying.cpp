@@ -71,6 +71,7 @@ double around(const Chain& chain, const Integrand& of, double rho) {
 
 double Laying::turn(double b, double rho) const {
   if (lay_ == Lay::developed) return b / outer_;
+  if (lay_ == Lay::flat) return b / rho;
   return elementary::asin(std::clamp(b / (lay_ == Lay::prism ? rho : inner_), -1.0, 1.0));
 }
 
@@ -85,6 +86,10 @@ Taken taken(const Laying& laying, const Chain& chain) {
     const double flat = area(chain);
     return {flat, flat * inner / outer, flat * square};
   }
+  if (laying.lay() == Lay::flat) {
+    const double flat = area(chain);
+    return {flat, flat, flat * laying.wall()};
+  }
   const double bore = around(chain, way(inner), inner);
   if (laying.lay() == Lay::bored) {
     const double outside = bore * outer / inner;
@@ -98,7 +103,9 @@ double removed(const Laying& laying, const Chain& chain, double at) {
   const double outer = laying.outer(), inner = laying.inner();
   double sum = 0.0;
   for (const auto& [from, to] : stretches(chain, at)) {
-    if (laying.lay() == Lay::prism)
+    if (laying.lay() == Lay::flat)
+      sum += (to - from) * laying.wall();
+    else if (laying.lay() == Lay::prism)
       sum += under(outer).t(to) - under(outer).t(from) - under(inner).t(to) + under(inner).t(from);
     else
       sum += (laying.turn(to, outer) - laying.turn(from, outer)) * 0.5 *

@@ -3,26 +3,44 @@
 #include "core/base/angle.hpp"
 #include "core/cutout/chain.hpp"
 #include "core/joint/target.hpp"
+#include "core/section/section.hpp"
 
 namespace tubecut::cutout {
 
-/// How a local plane lies on a round tube, about its anchor.
+/// How a local plane lies on a tube, about its anchor.
 enum class Lay {
   developed,  // on the outside, the wall square to it: b is way round the outside
   prism,      // straight along the anchor's normal
-  bored  // the prism's edge on the bore, the wall square from there: a torch that does not tilt
+  bored,  // the prism's edge on the bore, the wall square from there: a torch that does not tilt
+  flat,   // on one face of a section: the same shape on the outside and on the bore
 };
 
-/// Lays a chain on one side of a round tube. Phases count from the anchor's own.
+/// Lays a chain on one side of a tube. Phases count from the anchor's own. On a section, a phase is
+/// the share of a girth in rad, and a radius that of the circle of this girth.
 class Laying {
  public:
   Laying(const joint::Target& tube, Lay lay, bool far)
-      : outer_(tube.outer_radius), inner_(tube.inner_radius()), lay_(lay), far_(far) {}
+      : outer_(tube.outer_radius),
+        inner_(tube.inner_radius()),
+        wall_(tube.wall),
+        lay_(lay),
+        far_(far) {}
+  /// On a flat of a section.
+  Laying(const section::Section& section, bool far)
+      : outer_(section.outer().girth() / kTwoPi),
+        inner_(section.bore().girth() / kTwoPi),
+        wall_(section.wall),
+        lay_(Lay::flat),
+        far_(far) {}
 
   [[nodiscard]] double outer() const { return outer_; }
   [[nodiscard]] double inner() const { return inner_; }
+  [[nodiscard]] double wall() const { return wall_; }
   [[nodiscard]] Lay lay() const { return lay_; }
   [[nodiscard]] bool far() const { return far_; }
+  /// Returns true if the walls of the cut-out are parallel, so that the beam is offset in the local
+  /// plane.
+  [[nodiscard]] bool parallel() const { return lay_ == Lay::prism || lay_ == Lay::flat; }
 
   /// Way round from the anchor's generator, rad, before the side counts: of b, on the radius rho.
   [[nodiscard]] double turn(double b, double rho) const;
@@ -32,7 +50,7 @@ class Laying {
   [[nodiscard]] double stretch(double b) const;
 
  private:
-  double outer_, inner_;
+  double outer_, inner_, wall_;
   Lay lay_;
   bool far_;
 };

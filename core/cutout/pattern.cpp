@@ -1,6 +1,7 @@
 #include "core/cutout/pattern.hpp"
 
 #include <cmath>
+#include <string_view>
 
 #include "core/base/angle.hpp"
 
@@ -20,6 +21,13 @@ Result<void> check_turn(int count, double turn, const std::string& member) {
                .hint = "with this pitch more lie on each other"});
 }
 
+/// Errors of the inner pattern, at its own fields.
+Error in_each(Error error) {
+  constexpr std::string_view kPattern = "pattern";
+  for (auto& issue : error.issues) issue.member.insert(kPattern.size(), "/each");
+  return error;
+}
+
 struct Steps {
   Result<std::vector<Step>> operator()(const Once&) const { return std::vector<Step>{{}}; }
   Result<std::vector<Step>> operator()(const Linear& p) const {
@@ -27,11 +35,22 @@ struct Steps {
       return tl::unexpected(fits.error());
     std::vector<Step> out;
     for (int i = 0; i < p.count; ++i)
-      out.push_back({"." + std::to_string(i), i * p.pitch, i * p.turn});
+      out.push_back({"." + std::to_string(i), i * p.pitch, i * p.turn, {}});
     return out;
   }
   Result<std::vector<Step>> operator()(const Round& p) const {
     return (*this)(Linear{.count = p.count, .turn = p.turn});
+  }
+  /// A face's number less 1 comes first in a name.
+  Result<std::vector<Step>> operator()(const Faces& p) const {
+    const auto made = std::visit(*this, p.each);
+    if (!made) return tl::unexpected(in_each(made.error()));
+    const auto& each = *made;
+    std::vector<Step> out;
+    for (const int face : p.faces)
+      for (const auto& one : each)
+        out.push_back({"." + std::to_string(face - 1) + one.suffix, one.along, one.turn, face});
+    return out;
   }
   Result<std::vector<Step>> operator()(const Grid& p) const {
     if (auto fits = check_turn(p.round, p.turn, "pattern/round/count"); !fits)
@@ -48,8 +67,10 @@ struct Steps {
       for (int i = 0; i < p.along; ++i) {
         const double along = p.stagger == Grid::Stagger::along && j % 2 != 0 ? p.offset : 0.0;
         const double round = p.stagger == Grid::Stagger::round && i % 2 != 0 ? p.offset : 0.0;
-        out.push_back({"." + std::to_string(i) + "." + std::to_string(j), i * p.pitch + along,
-                       j * p.turn + round});
+        out.push_back({"." + std::to_string(i) + "." + std::to_string(j),
+                       i * p.pitch + along,
+                       j * p.turn + round,
+                       {}});
       }
     return out;
   }
@@ -61,6 +82,9 @@ struct Count {
   std::size_t operator()(const Round& p) const { return static_cast<std::size_t>(p.count); }
   std::size_t operator()(const Grid& p) const {
     return static_cast<std::size_t>(p.along) * static_cast<std::size_t>(p.round);
+  }
+  std::size_t operator()(const Faces& p) const {
+    return p.faces.size() * std::visit(*this, p.each);
   }
 };
 

@@ -25,12 +25,18 @@ struct Grid {
   Stagger stagger = Stagger::none;
   double offset = 0.0;  // of odd rows; mm along, or rad round
 };
-using Pattern = Variant<Once, Linear, Round, Grid>;
+/// The same on several faces of a section.
+struct Faces {
+  std::vector<int> faces;  // 1 to 4
+  Variant<Once, Linear, Grid> each;
+};
+using Pattern = Variant<Once, Linear, Round, Grid, Faces>;
 
-/// One of a pattern: how far from the anchor, and what its name adds to the id.
+/// One of a pattern: how far from the anchor, and the suffix of its name.
 struct Step {
   std::string suffix;
   double along = 0.0, turn = 0.0;  // mm, rad
+  std::optional<int> face = {};    // another face than the anchor's
 };
 
 [[nodiscard]] std::size_t count_of(const Pattern& pattern);

@@ -221,14 +221,14 @@ Result<void> check_line(const std::vector<Row>& rows) {
 
 double least_radius(const Laying& laying, double kerf, double b) {
   const double ratio = laying.outer() / laying.inner();
-  if (laying.lay() == Lay::prism) return 0.5 * kerf;
+  if (laying.parallel()) return 0.5 * kerf;
   if (laying.lay() == Lay::developed) return 0.5 * kerf * ratio * ratio;
   return 0.5 * kerf * laying.stretch(b) / ratio;
 }
 
 Flat kerf_offset(const Laying& laying, double kerf, const Flat& m) {
   const double half = 0.5 * kerf;
-  if (laying.lay() == Lay::prism || kerf == 0.0) return -half * m;
+  if (laying.parallel() || kerf == 0.0) return -half * m;
   const double outer = laying.outer(), inner = laying.inner(), eps = half / inner;
   const double x = inner * m.x(), y = outer * m.y();
   const double sum = x * x + y * y;  // Q = y^2/x^2, each term times x^2/sum
@@ -250,10 +250,12 @@ Result<bevel::Hole> rows(const Laying& laying, const Chain& chain, const Cutting
     out.phi_inner.push_back(laying.phase(laying.turn(edge.y(), inner)));
     out.z.push_back(edge.x());
     const double lean = prism ? elementary::asin(torch.y() / outer) : 0.0;
+    // The axis of a beam that is square to the wall.
+    const double bore = laying.lay() == Lay::flat ? inner : outer;
     out.a.push_back(laying.far() ? lean : -lean);
     out.torch_phi.push_back(laying.phase(prism ? lean : torch.y() / outer));
     out.torch_phi_inner.push_back(
-        laying.phase(prism ? elementary::asin(torch.y() / inner) : torch.y() / outer));
+        laying.phase(prism ? elementary::asin(torch.y() / inner) : torch.y() / bore));
     out.torch_z.push_back(torch.x());
   }
   out.z_inner = out.z;

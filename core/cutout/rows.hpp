@@ -20,8 +20,8 @@ struct Cutting {
 /// the anchor; `branch_phi` and what a branch would fit is empty.
 ///
 /// The axis runs off the edge so that a round beam of the kerf's width takes nothing of the part:
-/// of a prism half a kerf in the local plane; square to a curved wall further, because the beam
-/// takes more of the bore than of the outside.
+/// of a prism and on a flat half a kerf in the local plane; square to a curved wall further,
+/// because the beam takes more of the bore than of the outside.
 ///
 /// Errors  out_of_range (pieces/i: a hollow tighter than the kerf, and `as_cut` is false; empty:
 ///         the chain is narrower than the kerf somewhere).

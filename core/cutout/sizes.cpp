@@ -32,7 +32,7 @@ struct Sizes {
 
   /// Twice the least radius: what a shape is wide at least.
   [[nodiscard]] double width(double b) const { return 2.0 * least_radius(laying, kerf, b); }
-  [[nodiscard]] bool prism() const { return laying.lay() == Lay::prism; }
+  [[nodiscard]] bool prism() const { return laying.parallel(); }
 
   std::vector<Issue> operator()(const Circle& c) const {
     std::vector<Issue> out;
@@ -124,6 +124,7 @@ std::vector<Issue> check_open(const Chain& chain, const Laying& laying) {
              .unit = "mm",
              .hint = "it reaches round the whole tube"}};
   }
+  if (laying.lay() == Lay::flat) return {};  // `lay` holds it against the flat
   const double half = std::max(box.most.y(), -box.least.y());
   if (half < laying.inner()) return {};
   return {{.code = ErrorCode::open_profile,

@@ -20,20 +20,48 @@ constexpr double kApart = 0.05;     // mm between the places of a wall that the 
 constexpr int kMostPlaces = 2'000;  // of them
 constexpr int kRings = 16, kGauss = 8, kPieces = 4;
 
+/// A point of the tube about its anchor: on a flat, x is the depth below the outside.
+Vector3d in_space(const Laying& laying, bool outer, double phi, double z) {
+  const double rho = outer ? laying.outer() : laying.inner();
+  if (laying.lay() != Lay::flat) return cylinder_point(rho, phi, z);
+  return {outer ? 0.0 : -laying.wall(), rho * (laying.far() ? kPi - phi : phi), z};
+}
+
 /// How far a row's two points in space are off the chain, by their coordinates about the anchor.
 double off_chain(const Mould& mould, std::size_t row) {
   const auto& laying = mould.laying;
   const auto& rows = mould.rows;
-  const Vector3d outer = cylinder_point(laying.outer(), rows.phi[row], rows.z[row]);
-  const Vector3d inner = cylinder_point(laying.inner(), rows.phi_inner[row], rows.z_inner[row]);
+  const auto outer = in_space(laying, true, rows.phi[row], rows.z[row]);
+  const auto inner = in_space(laying, false, rows.phi_inner[row], rows.z_inner[row]);
   const auto off = [&](double a, double b) { return distance(mould.chain, {a, b}); };
   const double wall = inner.head<2>().normalized().dot(
       Eigen::Vector2d(-outer.y(), outer.x()));  // 0 where it stands square
-  if (laying.lay() == Lay::prism)
-    return worst_of({off(outer.z(), outer.y()), off(inner.z(), inner.y())});
+  if (laying.parallel()) return worst_of({off(outer.z(), outer.y()), off(inner.z(), inner.y())});
   if (laying.lay() == Lay::bored) return worst_of({off(inner.z(), inner.y()), std::abs(wall)});
   return worst_of(
       {off(outer.z(), laying.outer() * elementary::atan2(outer.y(), outer.x())), std::abs(wall)});
+}
+
+/// How far an instance's rows are off the places, by the section's own outlines, where the face's
+/// plane and the anchor say that they lie.
+double off_face(const Layout& layout, const Instance& one, const section::Wall& wall) {
+  const auto rows = placed(layout, one);
+  const auto& mould = layout.mould_of(one);
+  const auto n = section::Curve::face_normal(one.face);
+  const Eigen::Vector2d t(-n.y(), n.x());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < rows.phi.size(); ++i)
+    for (const bool outer : {true, false}) {
+      const auto& curve = outer ? wall.outer() : wall.bore();
+      const double phi = outer ? rows.phi[i] : rows.phi_inner[i];
+      const auto p = curve.at(phi / kTwoPi * curve.girth()).point;
+      const double depth = outer ? 0.0 : wall.section().wall;
+      const double b = (p.dot(t) - one.offset) * (mould.laying.far() ? -1.0 : 1.0);
+      const double a = (outer ? rows.z[i] : rows.z_inner[i]) - one.z;
+      worsen(worst, std::abs(wall.outer().face_distance(one.face) - depth - p.dot(n)));
+      worsen(worst, distance(mould.chain, {a, b}));
+    }
+  return worst;
 }
 
 /// Places of the finished edge on both walls and between them.
@@ -49,8 +77,11 @@ std::vector<Vector3d> wall_places(const Mould& mould) {
       for (const double share : {0.0, 0.5, 1.0}) {
         const double rho =
             mould.laying.inner() + share * (mould.laying.outer() - mould.laying.inner());
-        out.push_back(
-            cylinder_point(rho, mould.laying.phase(mould.laying.turn(p.y(), rho)), p.x()));
+        if (mould.laying.lay() == Lay::flat)
+          out.emplace_back((share - 1.0) * mould.laying.wall(), p.y(), p.x());
+        else
+          out.push_back(
+              cylinder_point(rho, mould.laying.phase(mould.laying.turn(p.y(), rho)), p.x()));
       }
     }
   }
@@ -68,11 +99,10 @@ double gouge(const Mould& mould, double kerf) {
       const auto mixed = [&](const std::vector<double>& of) {
         return (1.0 - share) * of[i] + share * of[j];
       };
-      const Vector3d from =
-          cylinder_point(mould.laying.inner(), mixed(r.torch_phi_inner), mixed(r.torch_z_inner));
+      const auto from =
+          in_space(mould.laying, false, mixed(r.torch_phi_inner), mixed(r.torch_z_inner));
       const Vector3d way =
-          (cylinder_point(mould.laying.outer(), mixed(r.torch_phi), mixed(r.torch_z)) - from)
-              .normalized();
+          (in_space(mould.laying, true, mixed(r.torch_phi), mixed(r.torch_z)) - from).normalized();
       double nearest = 0.25 * kerf * kerf;
       for (const auto& p : places) {
         const Vector3d off = p - from;
@@ -84,11 +114,27 @@ double gouge(const Mould& mould, double kerf) {
   return worst;
 }
 
+/// The enclosed area by the integral of a db.
+double around_flat(const Chain& chain, const math::GaussRule& rule) {
+  double sum = 0.0;
+  for (const auto& s : chain) {
+    const int pieces = kPieces * (1 + static_cast<int>(12.0 * std::abs(s.sweep) / kTwoPi));
+    for (int piece = 0; piece < pieces; ++piece)
+      for (std::size_t g = 0; g < rule.nodes.size(); ++g) {
+        const double share = (piece + 0.5 * (1.0 + rule.nodes[g])) / pieces;
+        sum += 0.5 * rule.weights[g] / pieces * s.length() * s.along(share).y() * s.at(share).x();
+      }
+  }
+  return std::abs(sum);
+}
+
 }  // namespace
 
 double volume_by_rings(const Mould& mould) {
   static const auto kAcross = math::gauss_legendre(kRings), kAlong = math::gauss_legendre(kGauss);
   const double inner = mould.laying.inner(), wall = mould.laying.outer() - inner;
+  if (mould.laying.lay() == Lay::flat)
+    return around_flat(mould.chain, kAlong) * mould.laying.wall();
   double sum = 0.0;
   for (std::size_t k = 0; k < kAcross.nodes.size(); ++k) {
     const double v = 0.5 * (1.0 + kAcross.nodes[k]), rho = inner + v * v * wall;
@@ -107,8 +153,18 @@ double volume_by_rings(const Mould& mould) {
   return sum;
 }
 
+double volume_by_rings(const Layout& layout) {
+  std::vector<double> each;
+  for (const auto& mould : layout.moulds) each.push_back(volume_by_rings(mould));
+  double sum = 0.0;
+  for (const auto& one : layout.instances) sum += each[one.mould];
+  return sum;
+}
+
 std::vector<Check> verify(const Layout& layout, const Ground& ground) {
   double edge = 0.0, deepest = 0.0, volume = 0.0;
+  for (const auto& one : layout.instances)
+    if (ground.section) worsen(edge, off_face(layout, one, *ground.section));
   for (const auto& mould : layout.moulds) {
     for (std::size_t i = 0; i < mould.rows.phi.size(); ++i) worsen(edge, off_chain(mould, i));
     if (ground.kerf > 0.0) worsen(deepest, gouge(mould, ground.kerf));

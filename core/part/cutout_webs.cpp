@@ -60,24 +60,38 @@ Result<std::vector<bevel::Hole>> fine_rows(const cutout::Layout& layout) {
   return out;
 }
 
-DevelopedWall developed(const PartSpec& spec, const Part& part,
-                        const std::vector<bevel::Hole>& moulds, bool outer) {
-  DevelopedWall out{.radius = outer ? spec.target.outer_radius : spec.target.inner_radius(),
-                    .outer = outer,
-                    .lines = {},
-                    .openings = {}};
-  for (const auto& rows : moulds) out.lines.push_back(line_of(rows, out.radius, outer));
-  for (const auto& placed : part.holes)
-    out.lines.push_back(line_of(placed.hole, out.radius, outer));
+/// One wall of a part, with the edges that end it.
+struct PartWall {
+  double radius = 0.0;  // of a section, that of the circle of its girth
+  bool outer = false;
+  Edge start, finish;
+};
+
+/// What the openings of a round part and of another have in common.
+struct WallsOfPart {
+  const CutoutSpecs& specs;
+  const cutout::Layout& layout;
+  std::vector<const bevel::Hole*> holes;
+  std::array<PartWall, 2> walls;
+  double gross = 0.0;  // mm^2, of the tube's section
+};
+
+DevelopedWall developed(const WallsOfPart& part, const PartWall& wall,
+                        const std::vector<bevel::Hole>& moulds) {
+  DevelopedWall out{.radius = wall.radius, .outer = wall.outer, .lines = {}, .openings = {}};
+  for (const auto& rows : moulds) out.lines.push_back(line_of(rows, out.radius, out.outer));
+  for (const auto* hole : part.holes) out.lines.push_back(line_of(*hole, out.radius, out.outer));
   const auto add = [&](Opening one) {
     const auto& box = out.lines[one.line].box();
     one.z_from = one.at.y() + box.least.y();
     one.z_to = one.at.y() + box.most.y();
     out.openings.push_back(one);
   };
-  const auto& all = part.cutouts.instances;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    add({.line = all[i].mould, .at = {out.radius * all[i].phi, all[i].z}, .index = i});
+  const auto& all = part.layout.instances;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double phi = out.outer ? all[i].phi : all[i].phi_inner;
+    add({.line = all[i].mould, .at = {out.radius * phi, all[i].z}, .index = i});
+  }
   for (std::size_t i = 0; i < part.holes.size(); ++i)
     add({.line = moulds.size() + i, .index = i, .hole = true});
   std::ranges::stable_sort(out.openings, {}, &Opening::z_from);
@@ -92,8 +106,7 @@ struct EndLine {
   bool finish;
 };
 
-EndLine end_line(const End& end, const DevelopedWall& wall, bool finish) {
-  const Edge edge{end.table.phi, wall.outer ? end.table.z_outer : end.table.z_inner};
+EndLine end_line(const Edge& edge, const DevelopedWall& wall, bool finish) {
   std::vector<WallPoint> points;
   for (const double turn : {-kTwoPi, 0.0, kTwoPi})
     for (std::size_t i = 0; i < edge.z.size(); ++i)
@@ -104,12 +117,12 @@ EndLine end_line(const End& end, const DevelopedWall& wall, bool finish) {
 
 class CutoutSearch {
  public:
-  CutoutSearch(const PartSpec& spec, const Part& part) : spec_(spec), part_(part) {}
+  explicit CutoutSearch(const WallsOfPart& part) : part_(part) {}
 
-  void on(const DevelopedWall& wall) {
+  void on(const DevelopedWall& wall, const PartWall& ends) {
     between(wall);
-    to_end(wall, end_line(part_.start, wall, false));
-    to_end(wall, end_line(part_.finish, wall, true));
+    to_end(wall, end_line(ends.start, wall, false));
+    to_end(wall, end_line(ends.finish, wall, true));
     to_seam(wall);
   }
   Result<CutoutReport> finished() {
@@ -118,7 +131,7 @@ class CutoutSearch {
     for (const auto& [asked, pair] : crossing_)
       if (!off_.contains(asked)) issues.push_back(crossing(asked, pair));
     if (!issues.empty()) return tl::unexpected(Error{std::move(issues)});
-    out_.net = least_section(spec_.target, part_.cutouts);
+    out_.net = least_section(part_.gross, part_.layout);
     return std::move(out_);
   }
 
@@ -135,7 +148,7 @@ class CutoutSearch {
   };
   using Difference = std::tuple<std::size_t, std::size_t, long long, long long>;
 
-  [[nodiscard]] const Instance& instance(std::size_t i) const { return part_.cutouts.instances[i]; }
+  [[nodiscard]] const Instance& instance(std::size_t i) const { return part_.layout.instances[i]; }
 
   void keep(const WallWay& way, const DevelopedWall& wall, CutoutWeb web,
             std::optional<CutoutWeb>& best) const {
@@ -257,7 +270,7 @@ class CutoutSearch {
   }
 
   [[nodiscard]] Issue off_part(std::size_t asked, const Beyond& beyond) const {
-    const auto& spec = spec_.cutouts.all[asked];
+    const auto& spec = part_.specs.all[asked];
     const std::string end(joint::end_name(beyond.finish));
     Issue out{.code = ErrorCode::cutout_off_part,
               .member = cutout::path_of(asked),
@@ -289,21 +302,59 @@ class CutoutSearch {
     return out;
   }
 
-  const PartSpec& spec_;
-  const Part& part_;
+  const WallsOfPart& part_;
   CutoutReport out_;
   std::map<Difference, WallWay> known_;
   std::map<std::size_t, Beyond> off_;
   std::map<std::size_t, Pair> crossing_;
 };
 
+Result<CutoutReport> search(const WallsOfPart& part) {
+  CutoutSearch search(part);
+  TRY(const auto moulds, fine_rows(part.layout));
+  for (const auto& wall : part.walls) search.on(developed(part, wall, moulds), wall);
+  return search.finished();
+}
+
+/// The edge of the bore over the share of its own girth.
+Edge bore_edge(const section::Wall& wall, const bevel::SectionTable& t) {
+  Edge out{.phi = {}, .z = t.z_inner};
+  for (const auto& at : t.at)
+    out.phi.push_back(wall.across(at).bore.s / wall.bore().girth() * kTwoPi);
+  // The first row may lie just before the datum, by rounding.
+  if (out.phi.size() > 1 && out.phi.front() > out.phi[1]) out.phi.front() -= kTwoPi;
+  return out;
+}
+
 }  // namespace
 
 Result<CutoutReport> check_cutouts(const PartSpec& spec, const Part& part) {
-  CutoutSearch search(spec, part);
-  TRY(const auto moulds, fine_rows(part.cutouts));
-  for (const bool outer : {true, false}) search.on(developed(spec, part, moulds, outer));
-  return search.finished();
+  const auto wall = [&](bool outer) {
+    const auto edge = [&](const bevel::Table& t) {
+      return Edge{t.phi, outer ? t.z_outer : t.z_inner};
+    };
+    return PartWall{outer ? spec.target.outer_radius : spec.target.inner_radius(), outer,
+                    edge(part.start.table), edge(part.finish.table)};
+  };
+  const double outer = spec.target.outer_radius, inner = spec.target.inner_radius();
+  WallsOfPart walls{spec.cutouts, part.cutouts, {}, {wall(true), wall(false)}};
+  walls.gross = kPi * (outer * outer - inner * inner);
+  for (const auto& placed : part.holes) walls.holes.push_back(&placed.hole);
+  return search(walls);
+}
+
+Result<CutoutReport> check_cutouts(const SectionPartSpec& spec, const SectionPart& part) {
+  const section::Wall wall(spec.section);
+  const auto &start = part.start.table, &finish = part.finish.table;
+  return search(
+      {spec.cutouts,
+       part.cutouts,
+       {},
+       {PartWall{wall.outer().girth() / kTwoPi, true, edge_over_girth(start, start.z_outer),
+                 edge_over_girth(finish, finish.z_outer)},
+        PartWall{wall.bore().girth() / kTwoPi, false, bore_edge(wall, start),
+                 bore_edge(wall, finish)}},
+       section::area(spec.section)});
 }
 
 }  // namespace tubecut::part

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
+#include "core/part/cutout_report.hpp"
 #include "core/part/part.hpp"
+#include "core/part/section/section_part.hpp"
 
 namespace tubecut::part {
 
@@ -12,5 +17,8 @@ namespace tubecut::part {
 /// Accuracy  webs within 2 um: edges are chords that leave the exact ones by 1 um at most.
 /// Source    docs/theory/cutouts.md, section 5.
 [[nodiscard]] Result<CutoutReport> check_cutouts(const PartSpec& spec, const Part& part);
+/// The same of a part that is not round: phases are shares of the girth of the wall in question.
+[[nodiscard]] Result<CutoutReport> check_cutouts(const SectionPartSpec& spec,
+                                                 const SectionPart& part);
 
 }  // namespace tubecut::part

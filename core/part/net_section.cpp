@@ -50,9 +50,7 @@ class Removed {
 
 }  // namespace
 
-NetSection least_section(const joint::Target& tube, const cutout::Layout& layout) {
-  const double gross =
-      kPi * (tube.outer_radius * tube.outer_radius - tube.inner_radius() * tube.inner_radius());
+NetSection least_section(double gross, const cutout::Layout& layout) {
   const Removed removed(layout);
   double best = -1.0, at = 0.0, step = 0.0, before = -1e300;
   for (const auto& one : removed.all()) {

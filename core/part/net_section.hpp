@@ -5,8 +5,8 @@
 
 namespace tubecut::part {
 
-/// Returns where the cut-outs leave the least of the tube's section: at 9 heights of each row of
-/// cut-outs, then by golden section between the best one's neighbours.
-[[nodiscard]] NetSection least_section(const joint::Target& tube, const cutout::Layout& layout);
+/// Returns where the cut-outs leave the least of the tube's section, `gross` mm^2 without them: at
+/// 9 heights of each row of cut-outs, then by golden section between the best one's neighbours.
+[[nodiscard]] NetSection least_section(double gross, const cutout::Layout& layout);
 
 }  // namespace tubecut::part

@@ -34,24 +34,17 @@ double go_round(const std::vector<double>& middles, std::vector<Step>::iterator 
   return middles[std::prev(last)->index];
 }
 
-}  // namespace
-
-std::vector<Step> opening_order(const Part& p) {
-  std::vector<Step> out;
-  for (std::size_t i = 0; i < p.holes.size(); ++i) {
-    const auto& h = p.holes[i].hole;
-    const auto span = span_of(h.torch_z, h.torch_z_inner);
-    out.push_back({Step::What::hole, i, span.first, span.second});
-  }
+/// Orders openings after adding the cut-outs to the holes among them.
+std::vector<Step> ordered(std::vector<Step> out, const cutout::Layout& layout) {
   std::vector<std::pair<double, double>> spans;
-  for (const auto& mould : p.cutouts.moulds)
+  for (const auto& mould : layout.moulds)
     spans.push_back(span_of(mould.rows.torch_z, mould.rows.torch_z_inner));
   std::vector<double> middles;
-  for (std::size_t i = 0; i < p.cutouts.instances.size(); ++i) {
-    const auto& one = p.cutouts.instances[i];
+  for (std::size_t i = 0; i < layout.instances.size(); ++i) {
+    const auto& one = layout.instances[i];
     const auto& span = spans[one.mould];
     out.push_back({Step::What::cutout, i, one.z + span.first, one.z + span.second});
-    middles.push_back(middle(p.cutouts, one));
+    middles.push_back(middle(layout, one));
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const Step& a, const Step& b) { return a.z_to > b.z_to; });
@@ -67,6 +60,20 @@ std::vector<Step> opening_order(const Part& p) {
     first = last;
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<Step> cutout_order(const cutout::Layout& layout) { return ordered({}, layout); }
+
+std::vector<Step> opening_order(const Part& p) {
+  std::vector<Step> out;
+  for (std::size_t i = 0; i < p.holes.size(); ++i) {
+    const auto& h = p.holes[i].hole;
+    const auto span = span_of(h.torch_z, h.torch_z_inner);
+    out.push_back({Step::What::hole, i, span.first, span.second});
+  }
+  return ordered(std::move(out), p.cutouts);
 }
 
 std::vector<Step> sequence(const Part& p) {

@@ -175,19 +175,10 @@ double holes_by_rings(const PartSpec& spec, const Part& p, const std::stop_token
   return sum;
 }
 
-/// What the cut-outs take, each mould once.
-double cutouts_by_rings(const Part& p) {
-  std::vector<double> each;
-  for (const auto& mould : p.cutouts.moulds) each.push_back(cutout::volume_by_rings(mould));
-  double sum = 0.0;
-  for (const auto& one : p.cutouts.instances) sum += each[one.mould];
-  return sum;
-}
-
 double volume_off(const PartSpec& spec, const Part& p, const std::stop_token& stop) {
   const double volume = ruled(p.finish.table, spec.target, p.finish.spec.root_face) -
                         ruled(p.start.table, spec.target, p.start.spec.root_face) -
-                        holes_by_rings(spec, p, stop) - cutouts_by_rings(p);
+                        holes_by_rings(spec, p, stop) - cutout::volume_by_rings(p.cutouts);
   return std::abs(p.lengths.mass / (spec.density * 1e-9) - volume) / std::abs(volume);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/angle.hpp"
 #include "tests/support/call.hpp"
 
 /// Parts of tubes that are not round, as /v1/parts answers and refuses them.
@@ -46,9 +47,7 @@ TEST(SectionPartRequests, EveryProblemIsAtItsField) {
   expect_refused(kParts, with(rail(), "target/size", "RHS 61x40x3"), "/target/size",
                  "unknown_size");
   expect_refused(kParts, with(rail(), "datum", "seam"), "/datum", "bad_choice");
-  for (const char* field : {"holes", "cutouts"})
-    expect_refused(kParts, with(rail(), field, parsed("[]")), std::string("/") + field,
-                   "unsupported_combination");
+  expect_refused(kParts, with(rail(), "holes", parsed("[]")), "/holes", "unsupported_combination");
   for (const char* limit : {"min_tongue_mm", "min_web_mm", "min_hole_to_end_mm"})
     expect_refused(kParts, with(rail(), "accept", with(parsed("{}"), limit, 3.0)),
                    std::string("/accept/") + limit, "unsupported_combination");
@@ -86,6 +85,103 @@ TEST(SectionPartRequests, LimitsAreHeldToBothEnds) {
   EXPECT_EQ(text(answer.body, "verdict/status"), "reject");
   const auto reach = with(parsed("{}"), "max_reach_mm", 61.0);
   EXPECT_EQ(text(post(kParts, with(rail(), "accept", reach)).body, "verdict/status"), "ok");
+}
+
+api::Json with_cutout(const char* text) {
+  return with(rail(), "cutouts", api::Json{api::Json::Array{parsed(text)}});
+}
+
+TEST(SectionPartCutouts, LieOnTheFaceThatTheRequestStates) {
+  const auto answer =
+      post(kParts, with_cutout(R"({"id": "bolt", "shape": {"kind": "circle", "diameter_mm": 11},
+                              "at": {"z_mm": 80, "face": 2, "offset_mm": 6}, "wall": "through"})"));
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 1500);
+  EXPECT_EQ(at(answer.body, "verification/passed"), api::Json{true});
+  const auto& groups = *at(answer.body, "result/cutouts").as<api::Json::Array>();
+  ASSERT_EQ(groups.size(), 2u);
+  const double start = numbers(answer.body, "result/frame/origin_mm")[2];
+  const double faces[] = {2.0, 4.0}, offsets[] = {6.0, -6.0};
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(number(groups[i], "instances/0/face"), faces[i]);
+    EXPECT_EQ(number(groups[i], "instances/0/offset_mm"), offsets[i]);
+    EXPECT_NEAR(number(groups[i], "instances/0/z_mm"), 80.0 - start, 1e-9);
+    EXPECT_NEAR(number(groups[i], "area_outer_mm2"), 0.25 * kPi * 121.0, 1e-9);
+    EXPECT_NEAR(number(groups[i], "volume_mm3"), 0.25 * kPi * 121.0 * 3.0, 1e-9);
+  }
+  const auto plain = post(kParts, rail());
+  EXPECT_NEAR(number(plain.body, "result/lengths/volume_mm3") -
+                  number(answer.body, "result/lengths/volume_mm3"),
+              2.0 * 0.25 * kPi * 121.0 * 3.0, 1e-6);
+}
+
+TEST(SectionPartCutouts, EveryProblemIsAtItsField) {
+  const auto expect = [](const char* at, const char* more, const char* pointer, const char* code) {
+    const auto text = std::string(R"({"id": "a", "shape": {"kind": "circle", "diameter_mm": 11},
+                                      "at": )") +
+                      at + more + "}";
+    expect_refused(kParts, with_cutout(text.c_str()), pointer, code);
+  };
+  const char* kFace = R"({"z_mm": 300, "face": 1})";
+  expect(R"({"z_mm": 300, "phi_deg": 0})", "", "/cutouts/0/at/phi_deg", "unsupported_combination");
+  expect(R"({"z_mm": 300, "face": 5})", "", "/cutouts/0/at/face", "out_of_range");
+  expect(R"({"z_mm": 300, "face": 1, "offset_mm": 40})", "", "/cutouts/0/at/offset_mm",
+         "out_of_range");
+  expect(R"({"z_mm": 300, "face": 1, "offset_mm": 10})", "", "/cutouts/0/at/offset_mm",
+         "out_of_range");
+  expect(R"({"z_mm": 300, "girth_mm": 16})", "", "/cutouts/0/at/girth_mm", "out_of_range");
+  expect(R"({"z_mm": 300, "girth_mm": 0, "offset_mm": 1})", "", "/cutouts/0/at/offset_mm",
+         "unsupported_combination");
+  expect(R"({"z_mm": -30, "face": 1})", "", "/cutouts/0/at/z_mm", "cutout_off_part");
+  expect(kFace, R"(, "pattern": {"kind": "round", "count": 4})", "/cutouts/0/pattern/kind",
+         "unsupported_combination");
+  expect(kFace, R"(, "pattern": {"kind": "linear", "count": 4, "pitch_deg": 3})",
+         "/cutouts/0/pattern/pitch_deg", "unsupported_combination");
+  expect(kFace, R"(, "pattern": {"kind": "linear", "count": 4, "pitch_mm": 9})",
+         "/cutouts/0/pattern", "cutouts_cross");
+  expect(kFace, R"(, "pattern": {"kind": "faces", "faces": [1, 1]})", "/cutouts/0/pattern/faces",
+         "bad_choice");
+  expect(kFace, R"(, "pattern": {"kind": "faces", "faces": [2, 3]})", "/cutouts/0/pattern/faces",
+         "unsupported_combination");
+  expect(kFace,
+         R"(, "pattern": {"kind": "faces", "faces": [1],
+                          "each": {"kind": "linear", "count": 9, "pitch_round_mm": 30}})",
+         "/cutouts/0/pattern/each/count", "pattern_wraps");
+  expect_refused("/v1/parts", with(rail(), "accept", with(parsed("{}"), "min_diameter_mm", 3.0)),
+                 "/accept/min_diameter_mm", "unsupported_combination");
+  // A round tube has no faces.
+  auto round = example("parts/base-post.json");
+  round = with(
+      round, "cutouts",
+      api::Json{api::Json::Array{parsed(
+          R"({"id": "a", "shape": {"kind": "circle", "diameter_mm": 11}, "at": {"z_mm": 300, "phi_deg": 0},
+          "pattern": {"kind": "faces", "faces": [1]}})")}});
+  expect_refused(kParts, round, "/cutouts/0/pattern/kind", "unsupported_combination");
+}
+
+TEST(SectionPartCutouts, AllOfThemAreInEveryFile) {
+  auto body = with_cutout(
+      R"({"id": "bolt", "shape": {"kind": "circle", "diameter_mm": 11},
+          "at": {"z_mm": 80, "face": 2, "offset_mm": 6}, "wall": "through"})");
+  body =
+      with(body, "cutouts",
+           api::Json{api::Json::Array{
+               at(body, "cutouts/0"),
+               parsed(R"({"id": "slot", "shape": {"kind": "slot", "length_mm": 30, "width_mm": 10},
+                 "at": {"z_mm": 400, "face": 1}})")}});
+  const auto count = [&](const char* query, const std::string& what) {
+    const auto posted = post(kParts, api::dump(body), query);
+    EXPECT_FALSE(posted.outcome.error) << query << posted.outcome.body.substr(0, 800);
+    const auto& in = posted.outcome.body;
+    std::size_t n = 0;
+    for (auto at = in.find(what); at != std::string::npos; at = in.find(what, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("format=nc1", "\r\nBO\r\n"), 2u);
+  EXPECT_EQ(count("format=nc1", "\r\nIK\r\n"), 1u);
+  EXPECT_EQ(count("format=dxf", "bolt far:"), 1u);
+  EXPECT_GE(count("format=step", "cut-out bolt far"), 1u);
+  EXPECT_GE(count("format=svg", "slot 30 x 10"), 1u);
+  EXPECT_GE(count("format=csv", "cut-out slot"), 1u);
 }
 
 }  // namespace tubecut::testing::section_parts

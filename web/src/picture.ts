@@ -234,6 +234,8 @@ export interface Solid {
   assembly?: Assembly;
   partners: Partner[];
   ribbons?: Ribbon[];
+  /** Openings in flat walls, each by its closed edge, drawn over the wall. */
+  openings?: Vector[][];
   lines?: {points: Vector[]; tone: string}[];
   /** Initial view: the direction to the eye, and the upward direction. */
   eye?: Vector;

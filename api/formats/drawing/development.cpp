@@ -236,6 +236,26 @@ Development developed(const part::PartSpec& spec, const part::Part& part) {
   return out;
 }
 
+namespace {
+
+/// A cut-out on a flat. Outside, the edge of the bore is the edge itself.
+CutOutline flat_outline(const section::Section& section, const cutout::Layout& layout,
+                        std::size_t i, BoreOn on) {
+  const auto rows = cutout::placed(layout, layout.instances[i]);
+  const auto tag = cutout_tag(layout, i);
+  const double outer = section.outer().girth() / kTwoPi, inner = section.bore().girth() / kTwoPi;
+  CutOutline out{.name = "cut-out " + tag,
+                 .outer = {.radius = outer, .phi = rows.phi, .z = rows.z},
+                 .inner = {},
+                 .torch = {.radius = outer, .phi = rows.torch_phi, .z = rows.torch_z},
+                 .around = false,
+                 .label = tag};
+  if (on == BoreOn::bore) out.inner = {.radius = inner, .phi = rows.phi_inner, .z = rows.z_inner};
+  return out;
+}
+
+}  // namespace
+
 Development developed(const part::SectionPartSpec& spec, const part::SectionPart& part, BoreOn on) {
   auto out = of_section(spec.section);
   for (const auto* end : {&part.start, &part.finish}) {
@@ -252,6 +272,8 @@ Development developed(const part::SectionPartSpec& spec, const part::SectionPart
     for (auto& span : spans_of(shares(t.at, out.outer_radius), scrap, t.cutter, finish))
       out.spans.push_back(std::move(span));
   }
+  for (std::size_t i = 0; i < part.cutouts.instances.size(); ++i)
+    out.cuts.push_back(flat_outline(spec.section, part.cutouts, i, on));
   for (const auto& mark : part.marks)
     out.marks.push_back({mark.kind, mark.text, mark.s / out.outer_radius, mark.z_from, mark.z_to});
   out.whole = true;

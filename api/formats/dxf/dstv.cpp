@@ -141,6 +141,8 @@ std::string wall_words(cutout::Lay lay) {
       return "its walls parallel";
     case cutout::Lay::bored:
       return "square to the tube, a straight tool passes";
+    case cutout::Lay::flat:
+      return "square to the face";
   }
   return {};
 }

@@ -34,8 +34,16 @@ Eigen::Vector3d on_wall(double radius, double phi, double z) {
 
 /// The closed curve on a section's outline in space. Between two places of one arc, further points
 /// keep the chord within kChord.
-std::vector<Eigen::Vector3d> in_space(const section::Curve& outline, const CylinderCurve& c) {
+std::vector<Eigen::Vector3d> in_space(const section::Curve& outline, const CylinderCurve& c,
+                                      bool around = true) {
   std::vector<Eigen::Vector3d> out;
+  if (!around) {  // a cut-out on a flat
+    for (std::size_t i = 0; i < c.phi.size(); ++i) {
+      const auto at = outline.at(c.radius * c.phi[i]);
+      out.emplace_back(at.point.x(), at.point.y(), c.z[i]);
+    }
+    return out;
+  }
   for (std::size_t i = 0; i + 1 < c.phi.size(); ++i) {
     const double from = c.radius * c.phi[i], by = c.radius * (c.phi[i + 1] - c.phi[i]);
     const double bent = outline.at(from + 0.5 * by).curvature;
@@ -74,8 +82,11 @@ std::vector<Eigen::Vector3d> open_in_space(const CylinderCurve& c) {
 }
 
 /// "z 12 to 96 mm, phi 40° to 140°", of the outer edge.
-std::string extent_in_words(const CutOutline& hole) {
+std::string extent_in_words(const CutOutline& hole, bool of_section) {
   const auto z = std::ranges::minmax(hole.outer.z), phi = std::ranges::minmax(hole.outer.phi);
+  if (of_section)
+    return "z " + number(z.min, Unit::mm) + " to " + mm(z.max) + ", girth " +
+           number(hole.outer.radius * phi.min, Unit::mm) + " to " + mm(hole.outer.radius * phi.max);
   return "z " + number(z.min, Unit::mm) + " to " + mm(z.max) + ", phi " + degrees(phi.min) +
          " to " + degrees(phi.max);
 }
@@ -107,7 +118,7 @@ std::vector<std::string> captions(const Development& d, const std::string& frame
     out.emplace_back("TORCH: its axis on the outer surface, the kerf applied; no edge of the part");
   if (d.whole && !d.name.empty()) out.push_back("part " + d.name);
   for (const auto& cut : d.cuts)
-    if (!cut.around) out.push_back(cut.label + ": " + extent_in_words(cut));
+    if (!cut.around) out.push_back(cut.label + ": " + extent_in_words(cut, d.section.has_value()));
   for (const auto& [name, text] : caption.reference)
     out.push_back(called(name, Term::field) + ": " + text);
   out.push_back(job_line(
@@ -158,8 +169,10 @@ void draw_cuts(DxfWriter& w, const Development& d, bool space) {
       if (!space)
         w.polyline(layer, flat(c), !cut.around);
       else if (d.section)
-        w.polyline(layer, in_space(&c == &cut.inner ? d.section->bore() : d.section->outer(), c),
-                   true);
+        w.polyline(
+            layer,
+            in_space(&c == &cut.inner ? d.section->bore() : d.section->outer(), c, cut.around),
+            true);
       else
         w.polyline(layer, in_space(c, cut.around), true);
     };

@@ -6,6 +6,7 @@
 
 #include "api/catalog/post.hpp"
 #include "api/formats/drawing/development.hpp"
+#include "api/formats/drawing/part_edges.hpp"
 #include "api/formats/drawing/part_marks.hpp"
 #include "api/formats/dxf/dstv_text.hpp"
 #include "api/formats/numbers.hpp"
@@ -85,6 +86,44 @@ std::string outline(const section::Curve& outer, const NcFace& face, const part:
   return out;
 }
 
+/// A circle as a bore; else the edge, run against the outline of its face.
+std::string cutout_block(const part::SectionPartSpec& spec, const part::SectionPart& part,
+                         std::size_t index, const std::stop_token& stop) {
+  constexpr double kLargestBore = 200.0;  // mm
+  const auto& layout = part.cutouts;
+  const auto& one = layout.instances[index];
+  const auto& asked = spec.cutouts.all[one.asked];
+  const auto& face = *std::ranges::find(kFaces, one.face, &NcFace::face);
+  const auto outer = spec.section.outer();
+  const double half = outer.face_distance(face.across_height ? 1 : 2);
+  const auto point = [&](double phi, double z) {
+    const auto p = outer.at(phi / kTwoPi * outer.girth()).point;
+    return NcPoint{z, half + (face.across_height ? p.x() : p.y())};
+  };
+  auto out =
+      dstv_comment("cut-out " + dstv_text(cutout_tag(layout, index)) + ", square to the face");
+  const auto* circle = std::get_if<cutout::Circle>(&asked.shape);
+  if (circle != nullptr && circle->diameter <= kLargestBore) {
+    const auto at = point(one.phi + layout.mould_of(one).laying.phase(0.0), one.z);
+    return out + "BO\r\n  " + face.name + dstv_field(at.x) + "u" + dstv_field(at.y) +
+           dstv_field(circle->diameter) + dstv_field(0.0) + "\r\n";
+  }
+  const auto rows = cutout::placed(layout, one);
+  std::vector<NcPoint> line;
+  double twice = 0.0;
+  for (std::size_t i = 0; i < rows.phi.size(); ++i) {
+    line.push_back(point(rows.phi[i], rows.z[i]));
+    if (i > 0) twice += line[i - 1].x * line[i].y - line[i].x * line[i - 1].y;
+  }
+  twice += line.back().x * line.front().y - line.front().x * line.back().y;
+  if ((twice > 0.0) != face.clockwise) std::ranges::reverse(line);
+  line.push_back(line.front());
+  out += "IK\r\n";
+  for (std::size_t i = 0; i < line.size(); ++i)
+    append(out, dstv_point(face.name, line[i].x, line[i].y, 0.0, i == 0), stop);
+  return out;
+}
+
 std::string bevels(const part::SectionEnd& end, const char* name, const std::stop_token& stop) {
   std::string out = dstv_comment(std::string("cut ") + name);
   const auto& t = end.table;
@@ -141,12 +180,18 @@ std::string print_dstv(const part::SectionPartSpec& spec, const part::SectionPar
   }
   std::string marks;
   for (const auto& step : part.sequence)
-    if (step.what == part::Step::What::mark) {
+    if (step.what == part::Step::What::cutout) {
+      append(outlines, cutout_block(spec, part, step.index, caption.stop), caption.stop);
+    } else if (step.what == part::Step::What::mark) {
       const auto& mark = part.marks[step.index];
       marks += dstv_comment("mark \"" + dstv_text(mark.text) + "\" on the middle of face 1, x " +
                             fixed(mark.z_from, 3) +
                             (mark.z_to > mark.z_from ? " to " + fixed(mark.z_to, 3) : ""));
     }
+  if (!part.cutouts.empty())
+    marks += dstv_comment(
+        "BO: a bore square to its face, its diameter, depth 0 = this wall; IK: the edge of an "
+        "opening");
   const auto lengths = lengths_of_part(part);
   auto out = "ST\r\n" + dstv_comments(lengths, kFrame, constant, caption) + cut_angles(part) +
              marks + dstv_header(profile_of(spec), lengths, caption, spec.name);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "api/formats/drawing/part_edges.hpp"
+#include "api/formats/step/section_cutout.hpp"
 #include "api/formats/step/section_ring.hpp"
 #include "api/stop.hpp"
 #include "api/wire/format.hpp"
@@ -47,6 +49,12 @@ class Builder {
       const auto& end = finish ? part_.finish : part_.start;
       const SectionRing ring(wall_, end.spec, end.table, all_seams_);
       add_cut(ring, finish, finish ? cuts_[1] : cuts_[0]);
+    }
+    const auto& layout = part_.cutouts;
+    for (std::size_t i = 0; i < layout.instances.size(); ++i) {
+      ask(stop);
+      cutouts_.push_back(
+          add_cutout(wall_, layout, layout.instances[i], "cut-out " + cutout_tag(layout, i), out_));
     }
     for (const bool outer : {true, false}) {
       ask(stop);
@@ -255,8 +263,15 @@ class Builder {
       const double girth = wall_.outer().girth();
       double middle = 0.5 * (seams[i] + seams[j] + (j == 0 ? girth : 0.0));
       if (middle >= girth) middle -= girth;
-      out_.faces.push_back(wall_face(outer, wall_.outer().at(middle), std::move(loop)));
+      const auto station = wall_.outer().at(middle);
+      out_.faces.push_back(wall_face(outer, station, std::move(loop)));
+      if (!station.on_corner) add_borders(outer, station.face, out_.faces.back());
     }
+  }
+
+  void add_borders(bool outer, int number, Brep::Face& face) const {
+    for (const auto& cutout : cutouts_)
+      if (cutout.face == number) face.loops.push_back(outer ? cutout.outside : cutout.bore);
   }
 
   [[nodiscard]] Brep::Face wall_face(bool outer, const Station& outside, Brep::Loop loop) const {
@@ -283,6 +298,7 @@ class Builder {
       seams_;  // outer s where faces of the outside and the bore meet
   std::vector<double> all_seams_;
   std::array<Cut, 2> cuts_;
+  std::vector<CutoutBorder> cutouts_;
   Brep out_;
 };
 

@@ -25,7 +25,7 @@ class Printer {
       vertices.push_back(entities_.add("VERTEX_POINT(''," + step_ref(entities_.point(p)) + ")"));
     for (const auto& edge : solid_.edges) {
       pace_.turn();
-      const auto along = curve(edge.curve);
+      const auto along = edge.circle ? circle(*edge.circle) : curve(edge.curve);
       edges.push_back(entities_.add("EDGE_CURVE(''," + step_ref(vertices[edge.from]) + "," +
                                     step_ref(vertices[edge.to]) + "," + step_ref(along) + ",.T.)"));
     }
@@ -64,15 +64,28 @@ class Printer {
                          ")");
   }
 
+  Id axes(const Eigen::Vector3d& origin, const Eigen::Vector3d& z, const Eigen::Vector3d& x) {
+    const auto at = entities_.point(origin), up = entities_.direction(z),
+               side = entities_.direction(x);
+    return entities_.shared("AXIS2_PLACEMENT_3D(''," + step_ref(at) + "," + step_ref(up) + "," +
+                            step_ref(side) + ")");
+  }
+
+  Id circle(const Brep::Circle& of) {
+    return entities_.add("CIRCLE(''," + step_ref(axes(of.centre, of.axis, of.begins)) + "," +
+                         step_real(of.radius, kRadiusDigits) + ")");
+  }
+
+  Id surface(const Brep::Bore& of) {
+    return entities_.shared("CYLINDRICAL_SURFACE(''," +
+                            step_ref(axes(of.centre, of.axis, of.begins)) + "," +
+                            step_real(of.radius, kRadiusDigits) + ")");
+  }
   Id surface(const Brep::Plane& plane) {
     Eigen::Vector3d across = Eigen::Vector3d::Unit(0);
     if (std::abs(plane.normal.x()) > 0.9) across = Eigen::Vector3d::Unit(1);
     const Eigen::Vector3d x = (across - across.dot(plane.normal) * plane.normal).normalized();
-    const auto at = entities_.point(plane.point), z = entities_.direction(plane.normal),
-               side = entities_.direction(x);
-    const auto place = entities_.shared("AXIS2_PLACEMENT_3D(''," + step_ref(at) + "," +
-                                        step_ref(z) + "," + step_ref(side) + ")");
-    return entities_.shared("PLANE(''," + step_ref(place) + ")");
+    return entities_.shared("PLANE(''," + step_ref(axes(plane.point, plane.normal, x)) + ")");
   }
   Id surface(const Brep::Cylinder& of) {
     const Eigen::Vector3d centre(of.centre.x(), of.centre.y(), 0.0);

@@ -8,6 +8,8 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/part/cut_edges.hpp"
+#include "core/part/cutout_webs.hpp"
+#include "core/part/opening_order.hpp"
 #include "core/part/place.hpp"
 
 namespace tubecut::part {
@@ -88,6 +90,7 @@ std::vector<Step> sequence_of(const SectionPart& p) {
   std::vector<Step> out;
   for (std::size_t i = 0; i < p.marks.size(); ++i)
     out.push_back({Step::What::mark, i, p.marks[i].z_from, p.marks[i].z_to});
+  for (const auto& step : cutout_order(p.cutouts)) out.push_back(step);
   const auto end = [&](Step::What what, const SectionTable& t) {
     out.push_back({what, 0, lowest(t), highest(t)});
   };
@@ -101,6 +104,7 @@ Lengths lengths(const SectionPartSpec& spec, const SectionPart& p) {
   auto out = lengths_along(p, spec, spec.length);
   out.volume = end_volume(wall, p.finish.spec, p.finish.table) -
                end_volume(wall, p.start.spec, p.start.table);
+  for (const auto& one : p.cutouts.instances) out.volume -= p.cutouts.mould_of(one).taken.volume;
   out.mass = out.volume * 1e-9 * spec.density;
   return out;
 }
@@ -129,10 +133,29 @@ void assemble(const SectionPartSpec& spec, SectionPart& out) {
     out.faces[i] = {out.finish.faces[i].z - out.start.faces[i].z,
                     out.finish.corners[i] - out.start.corners[i]};
   out.marks = marks(spec, out);
-  out.sequence = sequence_of(out);
+}
+
+Result<void> cut_cutouts(const SectionPartSpec& spec, SectionPart& out) {
+  if (spec.cutouts.all.empty()) return {};
+  TRY(out.cutouts, cutout::lay(spec.cutouts.all, cutout_ground(spec, out)));
+  TRY(out.cutout_report, check_cutouts(spec, out));
+  return {};
 }
 
 }  // namespace
+
+cutout::Ground cutout_ground(const SectionPartSpec& spec, const SectionPart& part) {
+  const double work = -lowest(part.start.own);
+  return {.tube = {.outer_radius = spec.section.outer().girth() / kTwoPi,
+                   .wall = spec.section.wall,
+                   .length = spec.length},
+          .section = section::Wall(spec.section),
+          .start_work = work,
+          .finish_long = highest(part.finish.table),
+          .finish_work = work + spec.length,
+          .kerf = spec.cutouts.kerf,
+          .tolerance = spec.cutouts.tolerance};
+}
 
 Result<SectionPart> section_part(const SectionPartSpec& spec, const std::stop_token& stop) {
   SectionPart out;
@@ -147,6 +170,8 @@ Result<SectionPart> section_part(const SectionPartSpec& spec, const std::stop_to
   const auto &s = out.start.table, &f = out.finish.table;
   TRY(check_left({{inner_edge(s), inner_edge(f)}, {outer_edge(s), outer_edge(f)}}, spec.length,
                  stop));
+  TRY(cut_cutouts(spec, out));
+  out.sequence = sequence_of(out);
   out.clocking = clocking_between(spec.start.cut.partners, spec.finish.cut.partners);
   out.lengths = lengths(spec, out);
   out.check_dimensions = check_dimensions(shape_of(spec, out), stop);

@@ -52,6 +52,7 @@ struct SectionPartSpec {
   std::string name = {};
   double clamping = 0.0, facing = 0.0;  // allowances of the blank
   double density = 7850.0;              // kg/m^3
+  CutoutSpecs cutouts = {};             // each on one flat
 };
 
 /// A place on the part's outer edge.
@@ -92,6 +93,8 @@ struct SectionPart {
   std::array<FaceLength, 4> faces;
   std::vector<CheckDimension> check_dimensions;
   std::vector<SectionMark> marks;
+  cutout::Layout cutouts = {};
+  CutoutReport cutout_report = {};
   std::vector<Step> sequence;
   std::vector<Warning> warnings;
 };
@@ -103,12 +106,15 @@ struct SectionPart {
 ///         finish, the same faces have the same numbers. B > 0 everywhere: the outer edge lies
 ///         further towards +z.
 /// Errors  those of bevel::section_table, under start/... and finish/...; member_consumed (the two
-///         cuts meet).
+///         cuts meet); those of cutout::lay and check_cutouts.
 /// Accuracy  a point's place in the world within 1e-12 of the lengths involved of the end's own;
 ///           volumes within 1e-9 of themselves of the surface between the rows.
 /// Source  docs/theory/parts.md; docs/theory/sections.md, sections 8 and 9.
 [[nodiscard]] Result<SectionPart> section_part(const SectionPartSpec& spec,
                                                const std::stop_token& stop = {});
+
+/// Returns what cut-outs are laid on, once the part's ends are cut.
+[[nodiscard]] cutout::Ground cutout_ground(const SectionPartSpec& spec, const SectionPart& part);
 
 /// Verifies the part from its own numbers: each end's checks (the worst of both), every point
 /// placed by a matrix, the volume by facets.

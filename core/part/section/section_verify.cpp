@@ -154,7 +154,11 @@ std::vector<Check> verify(const SectionPartSpec& spec, const SectionPart& part,
   worsen(placed,
          misplaced(part.finish, true, {{1.0, -1.0, -1.0}, {0.0, 0.0, spec.length - start}}, stop));
   out.push_back({"placed", placed, limit, "mm"});
-  const double volume = volume_of(wall, part.finish, stop) - volume_of(wall, part.start, stop);
+  if (!part.cutouts.empty())
+    for (auto& check : cutout::verify(part.cutouts, cutout_ground(spec, part)))
+      out.push_back(std::move(check));
+  const double volume = volume_of(wall, part.finish, stop) - volume_of(wall, part.start, stop) -
+                        cutout::volume_by_rings(part.cutouts);
   out.push_back({"volume", std::abs(part.lengths.volume - volume) / std::abs(volume), kVolume, ""});
   out.push_back({"check_dimensions", faces_off(spec, part), limit, "mm"});
   return out;

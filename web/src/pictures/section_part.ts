@@ -4,7 +4,7 @@ import {column, type Frame, type Partner, type Picture, type Solid, type Table, 
 import type {Answer} from '../service';
 import {about, label, sentence, shown, withUnit, type Term} from '../words';
 import {rangeOf, tinted} from './cut';
-import {facts, figures} from './facts';
+import {facts, figures, plural} from './facts';
 import {gapScale, gapsOf, webFigures} from './gaps';
 import {table} from './generic';
 import {bounds, frame, partner, placed, placedFrom, seenFrom, type Sizes} from './geometry';
@@ -31,6 +31,7 @@ export function sectionPart({request, result}: Answer, sizes: Sizes): Picture {
     const drawn = sectionCharts(asked, endOf(side), section, `cut-${side}`);
     return drawn.map((chart) => ({...chart, id: `${chart.id}-${side}`, title: `${sentence(side)}: ${chart.title}`}));
   });
+  const cutouts = rowsOf(result['cutouts']).reduce((sum, group) => sum + rowsOf(group['instances']).length, 0);
   const ranges = sides.map((side) => `${sentence(side)}: ${rangeOf(column((endOf(side)['points'] as Row)['b_deg']))}.`);
   return {
     solid: solidOf(request, result, sizes),
@@ -42,7 +43,7 @@ export function sectionPart({request, result}: Answer, sizes: Sizes): Picture {
       facts('section', section),
     ],
     readout: (i, link) => sectionReadings(endOf(link === 'cut-finish' ? 'finish' : 'start')['points'] as Row, i),
-    said: `${withUnit(Number(lengths['long_mm']), 'mm')} from tip to tip. ${ranges.join(' ')}`,
+    said: `${withUnit(Number(lengths['long_mm']), 'mm')} from tip to tip${cutouts ? `, with ${plural(cutouts, 'cut-out')}` : ''}. ${ranges.join(' ')}`,
   };
 }
 
@@ -73,6 +74,22 @@ export function faceTable(result: Row): Table {
   };
 }
 
+/** The edges of all cut-outs, slightly outside: the first of each group, and the others moved from it. */
+export function openingsOf(section: Row, result: Row): Vector[][] {
+  return rowsOf(result['cutouts']).flatMap((group) => {
+    const points = group['points'] as Row;
+    const [girth, z] = [column(points['girth_mm']), column(points['z_mm'])];
+    const instances = rowsOf(group['instances']);
+    const [first] = instances as [Row];
+    return instances.map((each) =>
+      girth.map((at, i): Vector => {
+        const [x, y] = outside(section, at + Number(each['girth_mm']) - Number(first['girth_mm']));
+        return [1.002 * x, 1.002 * y, (z[i] as number) + Number(each['z_mm']) - Number(first['z_mm'])];
+      }),
+    );
+  });
+}
+
 /** The member on its side, face 1 up, its start to the left. */
 function solidOf(request: Row, result: Row, sizes: Sizes): Solid {
   const section = result['section'] as Row;
@@ -89,9 +106,11 @@ function solidOf(request: Row, result: Row, sizes: Sizes): Solid {
   const gaps = points.map(gapsOf);
   const most = pressed(request) ? gaps.reduce((a, each) => Math.max(a, each?.most ?? 0), 0) : 0;
   const b = points.map((each) => column(each['b_deg']));
+  const openings = openingsOf(section, result);
   return {
     link: 'part',
     tubes: [],
+    openings,
     ribbons: [
       {a: walls[0][0], b: walls[0][1], tone: 'steel'},
       {a: walls[1][0], b: walls[1][1], tone: 'bore'},
@@ -105,6 +124,7 @@ function solidOf(request: Row, result: Row, sizes: Sizes): Solid {
     ...(pressed(request) ? {scale: gapScale(most)} : tinted(b.flat())),
     lines: [
       ...edges.flat().map((points) => ({points, tone: 'edge'})),
+      ...openings.map((points) => ({points: [...points, points[0] as Vector], tone: 'edge'})),
       ...rowsOf(result['marks'])
         .filter((mark) => mark['kind'] === 'datum_line')
         .map((mark) => {

@@ -19,7 +19,7 @@ import {chosen, chosenTogether, listen, point, pointed} from '../links';
 import type {Solid, Vector} from '../picture';
 import {Labels} from './labels';
 import {Members} from './members';
-import {Beam, Cone, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from './meshes';
+import {Beam, Cone, cutTube, drawnLine, holedTube, matrix, openings, partnerMesh, ribbon} from './meshes';
 
 // Drawn pixels per page pixel, in each direction. Without a graphics card one takes 30 ms and four
 // take 90, so a changing picture is drawn coarse, and once more fine when nothing has changed for a
@@ -105,6 +105,7 @@ export class Stage {
       ...solid.tubes.map((tube) => cutTube(tube, before, solid.tint)),
       ...(solid.holed ?? []).map((tube) => holedTube(tube, solid.tint)),
       ...(solid.ribbons ?? []).map((each) => ribbon(each, solid.tint)),
+      ...(solid.openings?.length ? [openings(solid.openings)] : []),
       ...(solid.lines ?? []).map((l) => drawnLine(l.points, l.tone)),
       this.partners,
     );

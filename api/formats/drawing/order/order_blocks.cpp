@@ -181,4 +181,24 @@ void draw_sign_off(OrderSheets& sheets, const joint::Sampling& sampling, const C
   }
 }
 
+void draw_row_line(Canvas& canvas, double y) {
+  canvas.line({OrderSheets::kLeft, y}, {OrderSheets::kRight, y}, kLine);
+}
+void draw_box(Canvas& canvas, double y, double height) {
+  canvas.rectangle({OrderSheets::kRight - 22.0, y - height + 0.9}, {OrderSheets::kRight, y - 0.6},
+                   kBox);
+}
+
+void draw_head(OrderSheets& sheets, const std::string& title, const std::vector<Column>& columns,
+               double with) {
+  constexpr double kTall = 10.0;
+  sheets.keep_together(kTall + with);
+  const double top = sheets.take(kTall);
+  auto& canvas = sheets.canvas();
+  canvas.text({OrderSheets::kLeft, top - 5.0}, title, kHead);
+  for (const auto& column : columns)
+    canvas.text({OrderSheets::kLeft + column.at, top - 9.0}, column.head, kGrey);
+  draw_row_line(canvas, top - kTall);
+}
+
 }  // namespace tubecut::api

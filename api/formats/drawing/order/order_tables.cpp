@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "api/formats/drawing/order/order_blocks.hpp"
+#include "api/formats/drawing/order/order_cutouts.hpp"
 #include "api/formats/drawing/part_edges.hpp"
 #include "api/formats/numbers.hpp"
 #include "api/wire/part_names.hpp"
@@ -12,37 +14,10 @@
 namespace tubecut::api {
 namespace {
 
-constexpr Stroke kLine{.color = "#7a8794", .width = 0.18};
 constexpr Stroke kBox{.color = "#566370", .width = 0.25};
-constexpr Lettering kHead{.height = 3.2, .bold = true};
 constexpr Lettering kSmall{.height = 2.3};
 constexpr Lettering kGrey{.height = 2.2, .color = "#566370"};
 constexpr std::string_view kGreen = "#1d7a46";
-
-/// A table's head and rows, each with a box to write in at its right end.
-struct Column {
-  double at;
-  std::string head;
-};
-void draw_row_line(Canvas& canvas, double y) {
-  canvas.line({OrderSheets::kLeft, y}, {OrderSheets::kRight, y}, kLine);
-}
-void draw_box(Canvas& canvas, double y, double height) {
-  canvas.rectangle({OrderSheets::kRight - 22.0, y - height + 0.9}, {OrderSheets::kRight, y - 0.6},
-                   kBox);
-}
-
-void draw_head(OrderSheets& sheets, const std::string& title, const std::vector<Column>& columns,
-               double with) {
-  constexpr double kTall = 10.0;
-  sheets.keep_together(kTall + with);
-  const double top = sheets.take(kTall);
-  auto& canvas = sheets.canvas();
-  canvas.text({OrderSheets::kLeft, top - 5.0}, title, kHead);
-  for (const auto& column : columns)
-    canvas.text({OrderSheets::kLeft + column.at, top - 9.0}, column.head, kGrey);
-  draw_row_line(canvas, top - kTall);
-}
 
 /// How many of the quantity each member is.
 std::string each_of(const Caption& caption) {
@@ -115,86 +90,6 @@ void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Par
             number(ro * (place.phi_to - place.phi_from), Unit::mm),
         27.0);
     put(136.0, degrees(b.min) + " to " + degrees(b.max), 25.0);
-    draw_box(canvas, top, kRow);
-    draw_row_line(canvas, top - kRow);
-  }
-}
-
-namespace {
-
-/// "circle 14", "slot 40 x 12 at 90°".
-std::string in_words(const cutout::Spec& spec) {
-  const auto mm = [](double value) { return number(value, Unit::mm); };
-  std::string out = "contour";
-  if (const auto* c = std::get_if<cutout::Circle>(&spec.shape)) return "circle " + mm(c->diameter);
-  if (const auto* s = std::get_if<cutout::Slot>(&spec.shape))
-    out = "slot " + mm(s->length) + " x " + mm(s->width);
-  if (const auto* r = std::get_if<cutout::Rectangle>(&spec.shape))
-    out = "window " + mm(r->along) + " x " + mm(r->round) + ", R " + mm(r->radius);
-  return spec.turn == 0.0 ? out : out + " at " + degrees(spec.turn);
-}
-
-std::string in_words(cutout::Lay lay) {
-  switch (lay) {
-    case cutout::Lay::developed:
-      return "size on the outside";
-    case cutout::Lay::prism:
-      return "straight through";
-    case cutout::Lay::bored:
-      return "a straight tool passes";
-  }
-  return {};
-}
-
-std::string in_words(const cutout::Pattern& pattern) {
-  const auto steps = [](double along, double turn) {
-    return (along != 0.0 ? number(along, Unit::mm) : "") +
-           (along != 0.0 && turn != 0.0 ? ", " : "") + (turn != 0.0 ? degrees(turn) : "");
-  };
-  if (const auto* l = std::get_if<cutout::Linear>(&pattern))
-    return std::to_string(l->count) + " by " + steps(l->pitch, l->turn);
-  if (const auto* r = std::get_if<cutout::Round>(&pattern))
-    return std::to_string(r->count) + " by " + degrees(r->turn);
-  if (const auto* g = std::get_if<cutout::Grid>(&pattern))
-    return std::to_string(g->along) + " by " + number(g->pitch, Unit::mm) + ", " +
-           std::to_string(g->round) + " by " + degrees(g->turn) +
-           (g->stagger == cutout::Grid::Stagger::none ? "" : ", staggered");
-  return "one";
-}
-
-}  // namespace
-
-void draw_cutouts(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part) {
-  const auto& layout = part.cutouts;
-  if (layout.empty()) return;
-  constexpr double kRow = 6.4;
-  draw_head(sheets, "Cut-outs: anchor of the first of each, outside, in mm",
-            {{0.0, "cut-out"},
-             {22.0, "size"},
-             {66.0, "from the long points"},
-             {100.0, "round"},
-             {116.0, "repeated"},
-             {162.0, "measured"}},
-            2.0 * kRow);
-  std::set<std::pair<std::size_t, std::size_t>> drawn;
-  for (const auto& one : layout.instances) {
-    if (!drawn.emplace(one.asked, one.mould).second) continue;
-    const auto& mould = layout.mould_of(one);
-    const auto& asked = spec.cutouts.all[one.asked];
-    const double middle = one.phi + mould.laying.phase(0.0);
-    const double top = sheets.take(kRow);
-    auto& canvas = sheets.canvas();
-    const auto put = [&](double x, double y, const std::string& text, double room,
-                         bool bold = false) {
-      canvas.label({OrderSheets::kLeft + x, top - y}, text, {.height = 2.3, .bold = bold}, room);
-    };
-    put(0.0, 2.9, asked.id + (mould.laying.far() ? ", far" : ""), 21.0, true);
-    put(0.0, 5.7, in_words(mould.laying.lay()), 64.0);
-    put(22.0, 2.9, in_words(asked), 43.0);
-    put(66.0, 2.9, number(one.z, Unit::mm) + "; " + number(part.lengths.longest - one.z, Unit::mm),
-        33.0);
-    put(100.0, 2.9, number(spec.target.outer_radius * turned_from(0.0, middle), Unit::mm), 15.0);
-    put(116.0, 2.9, in_words(asked.pattern), 45.0);
     draw_box(canvas, top, kRow);
     draw_row_line(canvas, top - kRow);
   }
@@ -340,27 +235,14 @@ std::string words(const part::PartSpec& spec, const part::Part& part, const part
 
 std::vector<std::string> step_texts(const part::PartSpec& spec, const part::Part& part) {
   const auto& all = part.sequence;
-  const auto asked = [&](const part::Step& step) {
-    return part.cutouts.instances[step.index].asked;
-  };
   std::vector<std::string> out;
   for (std::size_t i = 0; i < all.size();) {
-    auto last = i + 1;
-    if (all[i].what == part::Step::What::cutout)
-      while (last < all.size() && all[last].what == part::Step::What::cutout &&
-             asked(all[last]) == asked(all[i]))
-        ++last;
-    if (last - i < 3) last = i + 1;
-    auto step = all[i];
-    for (auto k = i; k < last; ++k) step.z_from = std::min(step.z_from, all[k].z_from);
-    auto text = words(spec, part, step);
-    if (last - i > 1)
-      text = "cut " + std::to_string(last - i) + " of " + spec.cutouts.all[asked(step)].id + ", " +
-             cutout_tag(part.cutouts, step.index) + " to " +
-             cutout_tag(part.cutouts, all[last - 1].index) + ", from " +
-             number(step.z_from, Unit::mm) + " to " + number(step.z_to, Unit::mm);
-    out.push_back(std::move(text));
-    i = last;
+    if (auto run = cutout_run(all, i, spec.cutouts, part.cutouts)) {
+      out.push_back(std::move(run->text));
+      i += run->count;
+    } else {
+      out.push_back(words(spec, part, all[i++]));
+    }
   }
   return out;
 }

@@ -15,10 +15,6 @@ void draw_members(OrderSheets& sheets, const Caption& caption);
 /// line, its size, its bevel.
 void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part);
 
-/// Each cut-out as requested, in a pattern its first one: size, place, wall, and how it is
-/// repeated.
-void draw_cutouts(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part);
-
 /// What is set at a tube notcher for each round partner of an end, where a shop has no torch for
 /// it.
 void draw_notches(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part,

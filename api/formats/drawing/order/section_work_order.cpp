@@ -5,9 +5,12 @@
 #include <cmath>
 #include <string>
 
+#include "api/formats/drawing/order/broken_scale.hpp"
 #include "api/formats/drawing/order/order_blocks.hpp"
+#include "api/formats/drawing/order/order_cutouts.hpp"
 #include "api/formats/drawing/order/order_sheets.hpp"
 #include "api/formats/drawing/order/order_tables.hpp"
+#include "api/formats/drawing/part_edges.hpp"
 #include "api/formats/numbers.hpp"
 #include "core/base/angle.hpp"
 
@@ -46,16 +49,11 @@ class Faces {
       : part_(part),
         outer_(spec.section.outer()),
         start_(part::edge_over_girth(part.start.table, part.start.table.z_outer)),
-        finish_(part::edge_over_girth(part.finish.table, part.finish.table.z_outer)) {
-    start_high_ = start_.highest();
-    finish_low_ = finish_.lowest();
-    low_ = std::min(0.0, start_.lowest());
+        finish_(part::edge_over_girth(part.finish.table, part.finish.table.z_outer)),
+        along_(shown(part, start_, finish_), kRoom,
+               std::min(1.0, kTall / (2.0 * (spec.section.height + spec.section.width)))),
+        scale_(along_.scale()) {
     high_ = finish_.highest();
-    const double sides = 2.0 * (spec.section.height + spec.section.width);
-    const double ends = (start_high_ - low_) + (high_ - finish_low_);
-    scale_ = std::min({1.0, kTall / sides, (kRoom - kPlain) / std::max(1.0, ends)});
-    const double plain = std::max(0.0, finish_low_ - start_high_) * scale_;
-    left_out_ = std::max(0.0, plain - (kRoom - ends * scale_)) / scale_;
   }
 
   [[nodiscard]] double height() const {
@@ -72,15 +70,27 @@ class Faces {
   }
 
  private:
-  static constexpr double kTall = 74.0, kRoom = 150.0, kPlain = 60.0, kBetween = 7.4,  // mm
-      kClear = 16.0;  // of a text from the break
+  static constexpr double kTall = 74.0, kRoom = 150.0, kBetween = 7.4;  // mm
+  static constexpr double kBreak = 1.2;                                 // half the width of a break
   static constexpr int kPlaces = 80;
 
   [[nodiscard]] double side(int face) const { return 2.0 * outer_.face_distance(face % 4 + 1); }
-  [[nodiscard]] double x(double z) const {
-    const double middle = 0.5 * (start_high_ + finish_low_);
-    return kLeft + 17.0 + (z - low_ - (z > middle ? left_out_ : 0.0)) * scale_;
+  /// Both ends and all cut-outs.
+  [[nodiscard]] static std::vector<BrokenScale::Range> shown(const part::SectionPart& part,
+                                                             const part::Edge& start,
+                                                             const part::Edge& finish) {
+    std::vector<BrokenScale::Range> out{{std::min(0.0, start.lowest()), start.highest()},
+                                        {finish.lowest(), finish.highest()}};
+    std::vector<std::pair<double, double>> reach;
+    for (const auto& mould : part.cutouts.moulds) {
+      const auto z = std::ranges::minmax(mould.rows.z);
+      reach.emplace_back(z.min, z.max);
+    }
+    for (const auto& one : part.cutouts.instances)
+      out.emplace_back(one.z + reach[one.mould].first, one.z + reach[one.mould].second);
+    return out;
   }
+  [[nodiscard]] double x(double z) const { return kLeft + 17.0 + along_.x(z); }
   [[nodiscard]] double edge(bool finish, double s) const {
     const auto span = (finish ? finish_ : start_).at(s / outer_.girth() * kTwoPi);
     return finish ? span.low : span.high;
@@ -106,17 +116,14 @@ class Faces {
     const auto start = cut(face, false, middle), finish = cut(face, true, middle);
     canvas.polyline(start, kEdge, id + "_start");
     canvas.polyline(finish, kEdge, id + "_finish");
-    const double z = 0.5 * (start_high_ + finish_low_);
-    const double gap = left_out_ > 0.0 ? 1.2 : 0.0, broken = x(z);
+    draw_cutouts(canvas, face, middle);
     for (const auto& [from, to] :
-         {std::pair{start.front(), finish.front()}, std::pair{start.back(), finish.back()}}) {
-      canvas.line(from, {broken - gap, from.y}, kSide);
-      canvas.line({broken + gap, to.y}, to, kSide);
-    }
-    if (gap > 0.0)
-      for (const double side : {-gap, gap})
-        canvas.polyline({{broken + side - 0.8, middle - half - 1.0},
-                         {broken + side + 0.8, middle + half + 1.0}},
+         {std::pair{start.front(), finish.front()}, std::pair{start.back(), finish.back()}})
+      draw_side(canvas, from, to);
+    for (const double broken : along_.breaks())
+      for (const double side : {-kBreak, kBreak})
+        canvas.polyline({{kLeft + 17.0 + broken + side - 0.8, middle - half - 1.0},
+                         {kLeft + 17.0 + broken + side + 0.8, middle + half + 1.0}},
                         kSide);
     const auto at = static_cast<std::size_t>(face - 1);
     const auto& s = part_.start.faces[at];
@@ -125,23 +132,50 @@ class Faces {
     canvas.text({kLeft, middle - 1.0}, "face " + std::to_string(face), kSmall);
     canvas.text({kLeft, middle - 4.0}, "cut " + angle_of(s), kGrey);
     auto length = kHead;
-    length.anchor = Anchor::middle;
     length.height = 2.8;
-    const double text = broken - (left_out_ > 0.0 ? kClear : 0.0);
-    canvas.text({text, middle + 0.8}, mm(part_.faces[at].length), length);
-    canvas.text({x(high_) + 2.0, middle - 1.0}, "cut " + angle_of(f), kGrey);
+    const double right = x(high_) + 2.0;
+    canvas.text({right, middle + 0.8}, mm(part_.faces[at].length), length);
+    canvas.text({right, middle - 2.8}, "cut " + angle_of(f), kGrey);
     // The corner after this face lies below it.
     auto corner = kGrey;
-    corner.anchor = Anchor::middle;
-    canvas.text({text, middle - half - 4.2},
+    corner.anchor = Anchor::end;
+    canvas.text({right - 2.0, middle - half - 4.2},
                 "corner " + std::to_string(face) + ": " + mm(part_.faces[at].corner), corner);
+  }
+
+  /// A side of a face, interrupted at the breaks.
+  void draw_side(Canvas& canvas, DrawingPoint from, const DrawingPoint& to) const {
+    for (const double broken : along_.breaks()) {
+      const double at = kLeft + 17.0 + broken;
+      canvas.line(from, {at - kBreak, from.y}, kSide);
+      from.x = at + kBreak;
+    }
+    canvas.line(from, to, kSide);
+  }
+
+  void draw_cutouts(Canvas& canvas, int face, double middle) const {
+    const auto& layout = part_.cutouts;
+    for (std::size_t i = 0; i < layout.instances.size(); ++i) {
+      const auto& one = layout.instances[i];
+      if (one.face != face) continue;
+      const auto rows = cutout::placed(layout, one);
+      const double anchor = outer_.on_face(face, 0.0);
+      std::vector<DrawingPoint> line;
+      for (std::size_t k = 0; k < rows.z.size(); ++k) {
+        const double s = rows.phi[k] / kTwoPi * outer_.girth();
+        const double v = std::remainder(s - anchor, outer_.girth());
+        line.push_back({x(rows.z[k]), middle - v * scale_});
+      }
+      canvas.polyline(std::move(line), kEdge, "cutout-" + std::to_string(i + 1), true);
+    }
   }
 
   const part::SectionPart& part_;
   section::Curve outer_;
   part::Edge start_, finish_;
-  double start_high_ = 0.0, finish_low_ = 0.0, low_ = 0.0, high_ = 0.0;
-  double scale_ = 1.0, left_out_ = 0.0;
+  BrokenScale along_;
+  double scale_ = 1.0;
+  double high_ = 0.0;
 };
 
 void draw_faces(OrderSheets& sheets, const part::SectionPartSpec& spec,
@@ -159,16 +193,30 @@ void draw_faces(OrderSheets& sheets, const part::SectionPartSpec& spec,
   faces.draw(canvas, top - 11.5);
 }
 
+std::string cutout_step(const part::SectionPart& part, const part::Step& step) {
+  const auto& one = part.cutouts.instances[step.index];
+  return "cut " + cutout_tag(part.cutouts, step.index) + " on face " + std::to_string(one.face) +
+         ", its middle " + mm(one.z) + " from the start's long point";
+}
+
 /// The operations on the blank, in their order.
-void draw_section_steps(OrderSheets& sheets, const part::SectionPart& part) {
+void draw_section_steps(OrderSheets& sheets, const part::SectionPartSpec& spec,
+                        const part::SectionPart& part) {
   std::vector<std::string> steps;
-  for (const auto& step : part.sequence) {
-    if (step.what == part::Step::What::mark) {
+  const auto& all = part.sequence;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& step = all[i];
+    if (auto run = cutout_run(all, i, spec.cutouts, part.cutouts)) {
+      steps.push_back(std::move(run->text));
+      i += run->count - 1;
+    } else if (step.what == part::Step::What::mark) {
       const auto& mark = part.marks[step.index];
       const bool line = mark.kind == part::Mark::Kind::datum_line;
       steps.push_back(line ? "scribe the datum line on the middle of face 1"
                            : "mark " + mark.text + " on the middle of face 1, " + mm(mark.z_from) +
                                  " from the start's long point");
+    } else if (step.what == part::Step::What::cutout) {
+      steps.push_back(cutout_step(part, step));
     } else {
       steps.push_back(step.what == part::Step::What::finish
                           ? "cut the finish"
@@ -221,7 +269,8 @@ std::vector<Canvas> section_work_order(const part::SectionPartSpec& spec,
   draw_saw(sheets, part);
   draw_partners(sheets, {part.start.spec.partners.size(), spec.start.welded},
                 {part.finish.spec.partners.size(), spec.finish.welded}, caption);
-  draw_section_steps(sheets, part);
+  draw_cutouts(sheets, spec, part);
+  draw_section_steps(sheets, spec, part);
   draw_checks(sheets, part.check_dimensions);
   draw_sign_off(sheets, spec.start.cut.sampling, caption);
   return sheets.finished();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/formats/drawing/order/order_blocks.hpp"
+#include "api/formats/drawing/order/order_cutouts.hpp"
 #include "api/formats/drawing/order/order_sheets.hpp"
 #include "api/formats/drawing/order/order_tables.hpp"
 #include "api/formats/drawing/part_development.hpp"

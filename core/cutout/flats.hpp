@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "core/cutout/cutout.hpp"
+
+/// Cut-outs on the flats of a section.
+namespace tubecut::cutout {
+
+/// Places an instance, `step` from its anchor: its face and the offset there, its phases on the
+/// outside and on the bore. On the far side, it lies straight across.
+void put_on_face(const section::Wall& wall, const Anchor& at, const Step& step, bool far,
+                 Instance& one);
+
+/// Returns what is wrong with the first instance, from index `first` on, that does not lie within
+/// its flat on the outside and on the bore.
+/// Errors  see `lay`.
+[[nodiscard]] std::optional<Issue> beyond_flat(const Spec& spec, const Layout& layout,
+                                               std::size_t first, const section::Wall& wall);
+
+/// Returns half the length of a face's flat that lies on the outside and on the bore, mm.
+[[nodiscard]] double half_flat(const section::Wall& wall, int face);
+
+}  // namespace tubecut::cutout
