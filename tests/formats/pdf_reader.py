@@ -3,7 +3,9 @@
 import re
 
 POINT = 25.4 / 72  # mm
-TOKEN = re.compile(rb"\((?:[^()\\]|\\.)*\)|\[[^\]]*\]|/?[A-Za-z][A-Za-z0-9]*|[-+]?[0-9.]+")
+NUMBER = rb"([-+]?[0-9.]+)"
+# A step of a path, because most of a page is such; a number; another operand; an operator.
+TOKEN = re.compile(NUMBER + rb" " + NUMBER + rb" [ml]\b|" + NUMBER + rb"|(\((?:[^()\\]|\\.)*\)|\[[^\]]*\]|/[A-Za-z][A-Za-z0-9]*)|([A-Za-z][A-Za-z0-9]*)")
 
 
 def text_of(literal):
@@ -16,17 +18,22 @@ class Page:
 
     def __init__(self, width, height, content):
         self.width, self.height, self.paths, self.texts = width, height, [], []
-        stack, points, closed, colour, at, size = [], [], False, None, None, 0.0
-        for token in TOKEN.findall(content):
-            if re.match(rb"[-+]?[0-9.]|\(|\[|/", token):
-                stack.append(token)
+        numbers, literals, points, closed, colour, at, size = [], [], [], False, None, None, 0.0
+        for x, y, number, literal, token in TOKEN.findall(content):
+            if x:
+                if numbers or literals:
+                    raise AssertionError("operands without an operator")
+                points.append((float(x), float(y)))
                 continue
-            numbers = [float(t) for t in stack if re.fullmatch(rb"[-+]?[0-9.]+", t)]
+            if number:
+                numbers.append(float(number))
+                continue
+            if literal:
+                literals.append(literal)
+                continue
             if token == b"cm":
                 if not all(abs(n - POINT ** -1) < 1e-6 for n in (numbers[0], numbers[3])):
                     raise AssertionError("not in millimetres")
-            elif token in (b"m", b"l"):
-                points.append(tuple(numbers))
             elif token == b"re":
                 x, y, w, h = numbers
                 points, closed = [(x, y), (x + w, y), (x + w, y + h), (x, y + h)], True
@@ -43,10 +50,10 @@ class Page:
             elif token == b"Tm":
                 at = numbers
             elif token == b"Tj":
-                self.texts.append((text_of(stack[-1]), at[4], at[5], size, at[0], at[1]))
+                self.texts.append((text_of(literals[-1]), at[4], at[5], size, at[0], at[1]))
             elif token not in (b"q", b"Q", b"w", b"d", b"j", b"rg", b"BT", b"ET"):
                 raise AssertionError(f"unknown operator {token}")
-            stack = []
+            numbers, literals = [], []
 
 
 def pages(content):

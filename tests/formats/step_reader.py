@@ -41,14 +41,13 @@ def text_of(literal):
 
 def tokens(text):
     at, out = 0, []
-    while at < len(text):
-        match = TOKEN.match(text, at)
-        if not match:
-            if text[at:].strip() == "":
-                break
-            raise Malformed(f"no token: {text[at:at + 60]!r}")
-        out.append((match.lastgroup, match[match.lastgroup]))
-        at = match.end()
+    for match in TOKEN.finditer(text):
+        if match.start() != at:
+            break
+        kind, at = match.lastgroup, match.end()
+        out.append((kind, match[kind]))
+    if text[at:].strip():
+        raise Malformed(f"no token: {text[at:at + 60]!r}")
     return out
 
 
