@@ -143,22 +143,26 @@ async function faultsIn(page, look, names) {
   return wrong;
 }
 
-/** Visits each example once, at both widths and in both themes, and lists the faults of each.
- * `whole` selects the examples of which every tab is read and given to axe in two of the four
- * views, `every` all of them in all four; for the others, the first of each kind has its tabs read.
+/** Visits each chosen example once, at both widths and in both themes, and lists the faults of each.
+ * `chosen` selects examples in addition to the first of each kind. `whole` selects those of which
+ * every tab is read and given to axe in two of the four views, `every` all of them in all four; for
+ * the others, the first of each kind has its tabs read.
  */
-export async function visited({browser, origin, service}, {whole = () => false, every = false, tell = () => {}} = {}) {
+export async function visited({browser, origin, service}, {chosen = () => true, whole = () => false, every = false, tell = () => {}} = {}) {
   const contract = JSON.parse((await service.ask('/openapi.json', {method: 'GET'})).text);
   const names = wireNames(contract);
   const {examples} = JSON.parse((await service.ask('/v1/examples', {method: 'GET'})).text);
   assert.ok(examples.length > 40);
   const wrong = [];
   const kinds = new Set();
+  let visits = 0;
   const page = await open(browser, origin, '', WIDE);
   await answered(page);
   let at = 'bevel-tables/source-000-table-1';
   for (const {endpoint, name} of examples) {
     const example = `${endpoint}/${name}`;
+    if (kinds.has(endpoint) && !every && !chosen({endpoint, name})) continue;
+    visits += 1;
     if (example !== at) {
       await then(page, () => page.evaluate((to) => {
         location.hash = to;
@@ -173,5 +177,5 @@ export async function visited({browser, origin, service}, {whole = () => false, 
   }
   wrong.push(...page.faults.map((fault) => `in the browser: ${fault}`));
   await page.context().close();
-  return {wrong, count: kinds.size};
+  return {wrong, kinds: kinds.size, visits};
 }

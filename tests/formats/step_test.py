@@ -1,6 +1,5 @@
 """STEP files read by a reader of our own: one closed solid each, as the answer has it. `./dev peers` lets Open CASCADE read them."""
 
-import copy
 import json
 import math
 import os
@@ -10,10 +9,9 @@ import re
 import drawn_parts
 import numpy as np
 import step_reader
-from service import FormatTest, cutouts, drawing_seed, examples, main
+from service import FormatTest, cutouts, drawing_seed, examples, main, thinned
 
 PARTS = int(os.environ.get("TUBECUT_PARTS", "24"))  # enough for every kind; ./dev soak drawn takes more
-MANY = int(os.environ.get("TUBECUT_CUTOUTS", "100"))  # of a pattern that is checked whole; ./dev soak drawn leaves none out
 NEAR_CUT = 2e-3   # mm from the cut as answered
 NEAR_ROWS = 1e-3  # mm from its rows, and from the exact cut where that is smooth between them
 VOLUME_OFF = 1e-6  # of the answer's, by the file's own edges and cut faces
@@ -133,16 +131,6 @@ EVERY_KIND = {
     "through", "through none", "through half_dihedral", "through square"}
 
 
-def thinned(body):
-    """A request whose grids of more than MANY cut-outs have two along the tube: staggered, and all round it."""
-    out = copy.deepcopy(body)
-    for group in out.get("cutouts", []):
-        pattern = group.get("pattern", {})
-        if pattern.get("kind") == "grid" and pattern["along"]["count"] * pattern["round"]["count"] > MANY:
-            pattern["along"]["count"] = 2
-    return out
-
-
 NARROW_LAND = {  # its rulings are shorter than the way from one to the next, and slant
     "target": {"outer_diameter_mm": 32.89, "wall_mm": 0.83, "length_mm": 148},
     "ends": {"start": {"cutters": [{"kind": "plane", "point_mm": [0, 0, 0], "normal": [0, 0, 1]}], "root_surface": "inner",
@@ -196,7 +184,7 @@ class Step(FormatTest):
     def test_every_example_and_view(self):
         count = 0
         for endpoint in ("bevel-tables", "holes", "parts"):
-            for name, whole in examples(endpoint).items():
+            for name, whole in examples(endpoint, whole=True).items():
                 body = thinned(whole)
                 if body != whole:
                     with self.subTest(f"{endpoint} {name}, whole"):
