@@ -213,16 +213,20 @@ class SectionFiles(FormatTest):
 
     def test_step_is_one_solid_with_the_answers_volume(self):
         """Drawn parts by planes and tubes, with and without a land, rows by tolerance and on a bare grid."""
+        holes = 0
         for number in range(5):
             with self.subTest(number):
                 body = self.drawn_step_part()
                 answer = self.service.answer("parts", body)
                 solid = step_reader.Solid(step_reader.File(self.service.text("parts", body, "format=step").decode("ascii")))
-                self.assertEqual(step_reader.faults(solid, 1), [])
+                openings = sum(len(group["instances"]) for group in answer["result"].get("cutouts", []))
+                self.assertEqual(step_reader.faults(solid, 1 + openings), [])
                 wanted = answer["result"]["lengths"]["volume_mm3"]
                 self.assertAlmostEqual(step_reader.volume(solid) / wanted, 1, delta=2e-6)
                 names = {face["name"] for face in solid.faces}
-                self.assertEqual(names, {"outside", "bore", "start", "finish"})
+                self.assertEqual({name for name in names if not name.startswith("cut-out ")}, {"outside", "bore", "start", "finish"})
+                holes += openings
+        self.assertGreater(holes, 10)
 
     def drawn_step_part(self):
         rng = self.rng
@@ -242,7 +246,83 @@ class SectionFiles(FormatTest):
                 return {"cutters": [plane, stub], "root_surface": "inner", "smoothing": {"method": "none"}, **cut}
             return {"cutters": [rng.choice([chord, plane])], "root_surface": "inner", "smoothing": {"method": "none"}, **cut}
         sampling = rng.choice([{"tolerance_mm": 0.02}, {"uniform_points": 72}])
-        return {"target": target, "ends": {"start": end(), "finish": end()}, "kerf_mm": 0, "torch": {"min_deg": -85, "max_deg": 85}, "sampling": sampling}
+        return {"cutouts": self.drawn_cutouts(lengths), "target": target, "ends": {"start": end(), "finish": end()}, "kerf_mm": 0, "torch": {"min_deg": -85, "max_deg": 85}, "sampling": sampling}
+
+    def drawn_cutouts(self, lengths):
+        """One of each kind on faces with room for it, 80 mm apart in the middle of a tube 900 mm long."""
+        rng = self.rng
+        height, width, wall, corner, _ = lengths
+        half = {face: (width if face % 2 else height) / 2 - max(corner, 2 * wall) for face in (1, 2, 3, 4)}
+        face = max(half, key=half.get)
+        room = half[face]
+        if room < 6:
+            return []
+        size = min(room, 12)
+        drawing = {"kind": "contour", "start_mm": [-size, -0.4 * size], "corners": "as_cut",
+                   "pieces": [{"kind": "line", "to_mm": [size, -0.4 * size]}, {"kind": "line", "to_mm": [size, 0]},
+                              {"kind": "arc", "to_mm": [0, 0], "centre_mm": [size / 2, 0], "sense": "ccw"}, {"kind": "line", "to_mm": [-size, 0]},
+                              {"kind": "line", "to_mm": [-size, -0.4 * size]}]}
+        shapes = [{"kind": "circle", "diameter_mm": size}, {"kind": "slot", "length_mm": 1.4 * size, "width_mm": 0.5 * size, "angle_deg": rng.uniform(0, 360)},
+                  {"kind": "rectangle", "along_mm": size, "round_mm": 0.8 * size, "corner_radius_mm": 0.1 * size, "angle_deg": rng.uniform(0, 360)}, drawing]
+        return [{"id": f"c{i}", "shape": shape, "wall": rng.choice(["normal", "through"]),
+                 "at": {"z_mm": 320 + 80 * i, "face": rng.choice([face, (face + 1) % 4 + 1]), "offset_mm": rng.uniform(-1, 1) * (room - size)}}
+                for i, shape in enumerate(shapes)]
+
+    def test_nc1_and_dxf_have_each_cut_out_on_its_face(self):
+        """A bore has its circle's place and diameter; another's outline is kept outside and has its area, length by length that of the shape."""
+        seen = 0
+        for number in range(6):
+            body = self.drawn_step_part()
+            if not body["cutouts"]:
+                continue
+            seen += 1
+            with self.subTest(number, target=body["target"]):
+                result = self.service.answer("parts", body)["result"]
+                file = parse(self.service.text("parts", body, "format=nc1").decode("ascii"))
+                section = result["section"]
+                height, width = section["height_mm"], section["width_mm"]
+                groups = {(group["id"], one["face"]): group for group in result["cutouts"] for one in group["instances"]}
+                order = [step["index"] for step in result["sequence"] if step["what"] == "cutout"]
+                flat = [(group["id"], one) for group in result["cutouts"] for one in group["instances"]]
+                bores, contours = iter(file["BO"]), iter(file["IK"])
+                for index in order:
+                    name, one = flat[index]
+                    # y counts along x of the section on faces 2 and 4, along y on 1 and 3; s grows along +y, -x, -y, +x.
+                    sign = {1: 1, 2: -1, 3: -1, 4: 1}[one["face"]]
+                    middle = (width if one["face"] % 2 else height) / 2
+                    if name == "c0":
+                        [(x, y, diameter, depth)] = next(bores)
+                        shape = body["cutouts"][0]["shape"]
+                        self.assertEqual(depth, 0)
+                        self.assertAlmostEqual(diameter, shape["diameter_mm"], delta=6e-4)
+                        self.assertAlmostEqual(x, one["z_mm"], delta=6e-4)
+                        self.assertAlmostEqual(y, middle + sign * one["offset_mm"], delta=6e-4)
+                        continue
+                    points = next(contours)
+                    twice = sum(x * v - u * y for (x, y, _), (u, v, _) in zip(points, points[1:]))
+                    self.assertEqual(twice > 0, one["face"] in (1, 4), "the outline runs as that of its face")
+                    area = groups[name, one["face"]]["area_outer_mm2"]
+                    self.assertAlmostEqual(abs(twice) / 2 / area, 1, delta=0.02)
+                drawing = read(self.service.text("parts", body, "format=dxf"))
+                self.assertEqual(drawing.audit().errors, [])
+                closed = [points for points, is_closed in polylines(drawing, "CUT_OUTER") if is_closed]
+                self.assertEqual(len(closed), len(flat))
+                for points, (name, one) in zip(closed, self.in_order(result)):
+                    xs, zs = zip(*points)
+                    self.assertAlmostEqual(min(xs), one["girth_from_mm"], delta=1e-5)
+                    self.assertAlmostEqual(max(zs), one["z_to_mm"], delta=1e-5)
+                space = read(self.service.text("parts", body, "format=dxf&view=tube"))
+                lengths = (height, width, section["corner_radius_mm"])
+                for points, _ in polylines(space, "CUT_OUTER"):
+                    self.assertTrue(all(abs(off_outline(x, y, *lengths)) < 1e-4 for x, y, _ in points))
+        self.assertGreater(seen, 2)
+
+    @staticmethod
+    def in_order(result):
+        """Instances as they are drawn: request by request, the far side after each near one."""
+        ids = sorted({group["id"] for group in result["cutouts"]})
+        sides = {(group["id"], group["side"]): group["instances"] for group in result["cutouts"]}
+        return [(name, one) for name in ids for side in ("near", "far") for one in sides.get((name, side), [])]
 
     def test_nc1_has_each_face_on_the_sharp_rectangle(self):
         """Each point of a face's outline lies on the outside of the tube, seen square to that face, and on the plane of its end."""

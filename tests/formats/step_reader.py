@@ -308,6 +308,18 @@ class Solid:
             raise Malformed("a frame that is not about z")
         return self.triple(origin, "CARTESIAN_POINT")
 
+    def axes(self, number):
+        """Origin, z and x of a frame of any direction."""
+        _, origin, z, x = self.file.get(number, "AXIS2_PLACEMENT_3D")
+        z, x = self.triple(z, "DIRECTION"), self.triple(x, "DIRECTION")
+        if max(abs(z @ z - 1), abs(x @ x - 1), abs(x @ z)) > 1e-9:
+            raise Malformed("a frame that is not square")
+        return self.triple(origin, "CARTESIAN_POINT"), z, x
+
+    def about_z(self, number):
+        z = self.triple(self.file.get(number, "AXIS2_PLACEMENT_3D")[2], "DIRECTION")
+        return np.array_equal(z, (0, 0, 1))
+
     def plane(self, number):
         """Point and normal of a plane; x of its frame lies in it."""
         _, origin, z, x = self.file.get(number, "AXIS2_PLACEMENT_3D")
@@ -355,7 +367,7 @@ class Solid:
             _, direction, length = self.file.get(v[2], "VECTOR")
             return ("line", self.triple(v[1], "CARTESIAN_POINT"), length * self.triple(direction, "DIRECTION"))
         if kind == "CIRCLE":
-            return ("circle", self.frame(v[1]), v[2])
+            return ("circle", self.frame(v[1]), v[2]) if self.about_z(v[1]) else ("arc", *self.axes(v[1]), v[2])
         if kind != "B_SPLINE_CURVE_WITH_KNOTS":
             raise Malformed(f"a curve {kind}")
         points = np.array([self.triple(n, "CARTESIAN_POINT") for n in v[2]])
@@ -364,7 +376,7 @@ class Solid:
     def surface(self, number):
         kind, v = self.file.entities[number]
         if kind == "CYLINDRICAL_SURFACE":
-            return ("cylinder", self.frame(v[1]), v[2])
+            return ("cylinder", self.frame(v[1]), v[2]) if self.about_z(v[1]) else ("bore", *self.axes(v[1]), v[2])
         if kind == "PLANE":
             return ("plane", *self.plane(v[1]))
         if kind != "B_SPLINE_SURFACE_WITH_KNOTS" or v[2] != 1 or v[9] != [2, 2]:
@@ -380,6 +392,14 @@ STILL = 1e-10  # of a surface, what a step to the nearest place is to be more th
 FLAT_OFF = NEAR  # mm: distance of an edge from its curve on the cylinder at the same parameter
 
 
+def arc_of(edge):
+    """Origin, axis, x, y, radius of an arc about any axis, and its angles, ascending."""
+    origin, z, x, radius = edge["curve"][1:]
+    y = np.cross(z, x)
+    first, last = (np.arctan2((p - origin) @ y, (p - origin) @ x) for p in edge["points"])
+    return origin, z, x, y, radius, first, last if last > first + 1e-9 else last + 2 * np.pi
+
+
 def curve_points(edge, forward=True):
     """Points along an edge, ends included, in its direction."""
     kind, *about = edge["curve"]
@@ -388,6 +408,10 @@ def curve_points(edge, forward=True):
         out = about[0].at(np.unique(np.append(about[0].within((0, 0.25, 0.5, 0.75)), about[0].knots[-1])))[0]
     elif kind == "line":
         out = a + np.linspace(0, 1, 5)[:, None] * (b - a)
+    elif kind == "arc":
+        origin, _, x, y, radius, first, last = arc_of(edge)
+        turn = np.linspace(first, last, 33)[:, None]
+        out = origin + radius * (np.cos(turn) * x + np.sin(turn) * y)
     else:
         origin, radius = about
         first, last = (np.arctan2(p[1], p[0]) for p in (a, b))
@@ -457,6 +481,9 @@ def off_surface(surface, points):
         return np.abs(np.hypot(from_axis[:, 0], from_axis[:, 1]) - about[1])
     if kind == "plane":
         return np.abs((points - about[0]) @ about[1])
+    if kind == "bore":
+        origin, axis, _, radius = about
+        return np.abs(np.linalg.norm(np.cross(points - origin, axis), axis=1) - radius)
     return nearest(about[0], points)
 
 
@@ -482,6 +509,10 @@ def signed_area(face, solid):
     elif kind == "cylinder":
         from_axis = points - about[0]
         x, y = np.unwrap(np.arctan2(from_axis[:, 1], from_axis[:, 0])), points[:, 2]
+    elif kind == "bore":
+        origin, axis, side, _ = about
+        from_axis = points - origin
+        x, y = np.unwrap(np.arctan2(from_axis @ np.cross(axis, side), from_axis @ side)), from_axis @ axis
     else:
         # Between the rulings too: one may be shorter than the way to the next, and slant.
         at, _ = about[0].at(about[0].within((0, 0.5)))
@@ -526,6 +557,19 @@ def under_plane(face, solid):
     return total
 
 
+def under_bore(face, solid):
+    """Integral of z over the shadow of a cylinder across the tube, between two arcs that lie straight over each other."""
+    arcs = [solid.edges[edge] for edge, _ in face["loops"][0] if solid.edges[edge]["curve"][0] == "arc"]
+    if len(arcs) != 2:
+        raise Malformed("a cylinder across the tube that is not between two arcs")
+    origin, z, x, y, radius, first, last = arc_of(arcs[0])
+    turn = (first + (last - first) * (np.arange(8)[:, None] + PLACES) / 8).ravel()[:, None]
+    weights = np.tile(WEIGHTS, 8) * (last - first) / 8
+    out = np.cos(turn) * x + np.sin(turn) * y
+    deep = abs((arc_of(arcs[1])[0] - origin) @ face["surface"][2])
+    return np.sum(weights * (origin + radius * out)[:, 2] * out[:, 2]) * radius * deep
+
+
 def volume(solid):
     """Integral of z over the border's shadow: cylinders about z have none."""
     total = 0.0
@@ -535,6 +579,8 @@ def volume(solid):
         if kind == "plane":
             # Its loops run as seen from outside, so those of a plane that looks down count against z already.
             total += under_plane(face, solid) * (sign if solid.edges[face["loops"][0][0][0]]["curve"][0] == "circle" else 1.0)
+        if kind == "bore":
+            total += sign * under_bore(face, solid)
         if kind == "ruled":
             p, d = about[0].at(about[0].within(PLACES))
             weights = (np.diff(about[0].knots)[:, None] * WEIGHTS[None]).ravel()
@@ -572,6 +618,9 @@ def faults(solid, genus):
         if about["curve"][0] == "line":
             _, origin, along = about["curve"]
             ends = max(np.linalg.norm(np.cross(p - origin, along / np.linalg.norm(along))) for p in about["points"])
+        if about["curve"][0] == "arc":
+            origin, z, _, radius = about["curve"][1:]
+            ends = max(max(abs(np.linalg.norm(p - origin) - radius), abs((p - origin) @ z)) for p in about["points"])
         if about["curve"][0] == "circle":
             ends = max(abs(np.hypot(*(p - about["curve"][1])[:2]) - about["curve"][2]) for p in about["points"])
         if not ends <= NEAR:

@@ -20,10 +20,8 @@ import {
   Quaternion,
   ShaderMaterial,
   Shape,
-  ShapeUtils,
   SphereGeometry,
   TubeGeometry,
-  Vector2,
   Vector3,
   type Material,
 } from 'three';
@@ -31,7 +29,7 @@ import {colour, partnerColour} from '../dom';
 import type {CutTube, EndCurve, Frame, Gaps, HoledTube, Partner, Ribbon, Shell, Tool, Vector} from '../picture';
 
 const radians = Math.PI / 180;
-const toVector = (v: Vector) => new Vector3(...v);
+export const toVector = (v: Vector) => new Vector3(...v);
 
 let stops: Color[] = [];
 let rampOf: string | null = null;
@@ -103,7 +101,7 @@ function kept<M extends Material>(name: string, make: () => M): M {
 // A little further off than it is: an edge drawn on it is whole.
 const behind = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1};
 export const metal = (name: string, hue: string) => kept(name, () => new MeshLambertMaterial({color: hue, side: DoubleSide, ...behind}));
-const steel = (tone: string) => metal(tone, colour(tone));
+export const steel = (tone: string) => metal(tone, colour(tone));
 const face = (tinted: boolean) =>
   kept(
     `face ${tinted}`,
@@ -426,28 +424,6 @@ export function ribbon(given: Ribbon, span: Span): Mesh {
   const tint = tintOf(given.bevel, given.gaps, span);
   if (tint) return new Mesh(strip(given.a, given.b, true, undefined, tint), face(true));
   return new Mesh(strip(given.a, given.b, true), steel(tone));
-}
-
-/** Flat openings, as one mesh over the walls that they are in. */
-export function openings(edges: Vector[][]): Mesh {
-  const positions: number[] = [];
-  for (const edge of edges) {
-    const at = edge.map(toVector);
-    const origin = at[0] as Vector3;
-    // Newell's normal, because three neighbouring points may lie on one line.
-    const normal = at.reduce((sum, p, i) => sum.add(p.clone().cross(at[(i + 1) % at.length] as Vector3)), new Vector3()).normalize();
-    const side = new Vector3(0, 0, 1);
-    const across = side.clone().cross(normal).normalize();
-    const flat = at.map((p) => {
-      const from = p.clone().sub(origin);
-      return new Vector2(from.dot(side), from.dot(across));
-    });
-    for (const corners of ShapeUtils.triangulateShape(flat, [])) for (const i of corners) positions.push(...(at[i] as Vector3).toArray());
-  }
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(new Float32Array(positions), 3));
-  geometry.computeVertexNormals();
-  return new Mesh(geometry, steel('bore'));
 }
 
 export const drawnLine = (points: Vector[], tone: string) => outline(points, tone);

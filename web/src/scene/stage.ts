@@ -19,7 +19,8 @@ import {chosen, chosenTogether, listen, point, pointed} from '../links';
 import type {Solid, Vector} from '../picture';
 import {Labels} from './labels';
 import {Members} from './members';
-import {Beam, Cone, cutTube, drawnLine, holedTube, matrix, openings, partnerMesh, ribbon} from './meshes';
+import {Beam, Cone, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from './meshes';
+import {openings} from './openings';
 
 // Drawn pixels per page pixel, in each direction. Without a graphics card one takes 30 ms and four
 // take 90, so a changing picture is drawn coarse, and once more fine when nothing has changed for a
