@@ -191,11 +191,14 @@ std::optional<Laid> Gatherer::Known::lay(const Shape& member, const Shape& by,
   if (!form || !other || !near(member, by)) return std::nullopt;
   const Side one{*form, member}, two{*other, by};
   if (!one.whole() || !two.whole()) return std::nullopt;
-  for (const double turn : detail::turns(one, two, within_)) {
+  // Cut-outs are placed from the part's own start and datum, which a turn or a move would displace.
+  const bool stands = member.has_cutouts;
+  for (const double turn : stands ? std::vector{0.0} : detail::turns(one, two, within_)) {
     auto laid = detail::resembles(one, two, turn, within_);
     if (!laid) continue;
     const auto found = fit(one, two, *laid, stop);
     if (!found.there || !(found.differs <= within_)) continue;
+    if (stands && std::abs(found.shift) > within_) continue;
     laid->shift = found.shift;
     laid->differs = found.differs;
     return laid;

@@ -26,6 +26,7 @@ struct Shape {
   std::string key;       // the tube, and how both ends are cut
   std::vector<std::string> start, finish;  // of each partner
   std::vector<std::string> holes, marks;   // of each, with the part that is placed there
+  bool has_cutouts = false;  // they are in the key, so a part is only alike as it stands
 };
 
 /// A part as requested. Of a tube that is not round, `section` is its outline, and the part's

@@ -260,10 +260,13 @@ class SectionFiles(FormatTest):
         size = min(room, 12)
         drawing = {"kind": "contour", "start_mm": [-size, -0.4 * size], "corners": "as_cut",
                    "pieces": [{"kind": "line", "to_mm": [size, -0.4 * size]}, {"kind": "line", "to_mm": [size, 0]},
-                              {"kind": "arc", "to_mm": [0, 0], "centre_mm": [size / 2, 0], "sense": "ccw"}, {"kind": "line", "to_mm": [-size, 0]},
+                              {"kind": "arc", "to_mm": [0, 0], "centre_mm": [size / 2, 0], "sense": "ccw"},
+                              {"kind": "line", "to_mm": [-size, 0]},
                               {"kind": "line", "to_mm": [-size, -0.4 * size]}]}
-        shapes = [{"kind": "circle", "diameter_mm": size}, {"kind": "slot", "length_mm": 1.4 * size, "width_mm": 0.5 * size, "angle_deg": rng.uniform(0, 360)},
-                  {"kind": "rectangle", "along_mm": size, "round_mm": 0.8 * size, "corner_radius_mm": 0.1 * size, "angle_deg": rng.uniform(0, 360)}, drawing]
+        shapes = [{"kind": "circle", "diameter_mm": size},
+                  {"kind": "slot", "length_mm": 1.4 * size, "width_mm": 0.5 * size, "angle_deg": rng.uniform(0, 360)},
+                  {"kind": "rectangle", "along_mm": size, "round_mm": 0.8 * size, "corner_radius_mm": 0.1 * size, "angle_deg": rng.uniform(0, 360)},
+                  drawing]
         return [{"id": f"c{i}", "shape": shape, "wall": rng.choice(["normal", "through"]),
                  "at": {"z_mm": 320 + 80 * i, "face": rng.choice([face, (face + 1) % 4 + 1]), "offset_mm": rng.uniform(-1, 1) * (room - size)}}
                 for i, shape in enumerate(shapes)]

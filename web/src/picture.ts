@@ -184,6 +184,8 @@ export interface Shell {
   reach: number; // from the axis
   walls: {outer: [from: Vector[], to: Vector[]]; bore: [from: Vector[], to: Vector[]]};
   cuts: [start: ShellCut, finish: ShellCut];
+  /** Cut-outs, by their edges slightly outside. */
+  openings?: Vector[][];
 }
 export interface ShellCut {
   outer: Vector[];

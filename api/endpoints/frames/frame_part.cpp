@@ -46,6 +46,8 @@ class PartWriter {
       TRY(auto all, holes(piece, names));
       out.emplace_back("holes", std::move(all));
     }
+    if (const auto& cutouts = request_.cutouts[member]; !(cutouts == Json{}))
+      out.emplace_back("cutouts", cutouts);
     for (const auto& one : request_.once) out.push_back(one);
     return Json{std::move(out)};
   }

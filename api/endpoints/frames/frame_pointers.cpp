@@ -82,6 +82,7 @@ class Sources {
       const bool sized = steps.size() > 1 && steps[1] != "length_mm" && steps[1] != "id";
       return member_at(frame_, member_) + (sized ? from(steps, 1) : "");
     }
+    if (steps[0] == "cutouts") return member_at(frame_, member_) + from(steps, 0);
     for (const auto& [name, value] : frame_.once)
       if (name == steps[0]) return from(steps, 0);
     return member_at(frame_, member_);

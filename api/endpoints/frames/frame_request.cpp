@@ -329,7 +329,7 @@ FrameRequest decode_frame_request(Reader& in) {
   out.preset = decode_preset(in);
   check_accepts(in, out.preset);
   check_seam_limit(in, out.preset, false);
-  auto members = decode_named_members(in);
+  auto members = decode_named_members(in, out.preset);
   std::vector<WorldCutter> others;
   in.note("others");
   if (in.has("others"))
@@ -338,6 +338,7 @@ FrameRequest decode_frame_request(Reader& in) {
   out.spec.members = members.members;
   out.walls = members.walls;
   out.sections = members.sections;
+  out.cutouts = std::move(members.cutouts);
   for (auto& one : others) out.spec.others.push_back({std::move(one.partner), std::move(one.name)});
   if (const auto within =
           in.optional_object("connect", [](Reader& c) { return c.number("within_mm", kDistance); }))
@@ -354,6 +355,13 @@ FrameRequest decode_frame_request(Reader& in) {
   out.alike_within = in.number("alike_within_mm", kAlike, kAlikeByDefault);
   in.note("merge_in_line");
   if (in.has("merge_in_line")) out.merge = in.flag("merge_in_line");
+  const bool any =
+      std::ranges::any_of(out.cutouts, [](const Json& one) { return !(one == Json{}); });
+  if (out.merge && any)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "merge_in_line",
+              .hint = "cut-outs are placed from a member's own ends; draw merged members as one"},
+             in.find("merge_in_line"));
   decode_once(in, out);
   return out;
 }

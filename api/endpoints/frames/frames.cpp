@@ -88,6 +88,7 @@ struct FrameBase {
     }
     spec.walls = std::move(walls);
     spec.sections = std::move(sections);
+    spec.cutouts.assign(spec.walls.size(), Json{});  // decode refuses any
     std::vector<OwnCut> cuts;
     for (const auto joint : merged.joints) cuts.push_back(spec.cuts[joint]);
     for (auto& one : spec.ends) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "api/endpoints/cutout_codec.hpp"
 #include "api/endpoints/frames/renaming.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
@@ -24,7 +25,32 @@ struct NamedMember {
   joint::Member member;
   bool nominal = false;
   std::vector<std::pair<std::string, joint::Joint>> joints;
+  Json cutouts = {};
 };
+
+/// How cut-outs of a frame's members are cut.
+struct CutoutRule {
+  Preset preset;
+  double kerf;
+};
+
+/// Decodes the cut-outs of a frame's member. Those of a round one are placed by its `up`.
+void decode_member_cutouts(Reader& in, const CutoutRule& rule, bool sure, NamedMember& named) {
+  in.note("cutouts");
+  if (!in.has("cutouts")) return;
+  const auto& m = named.member;
+  bevel::TableSpec once;
+  once.target = {.outer_radius = m.outer_radius, .wall = m.wall};
+  once.kerf = rule.kerf;
+  const auto cutouts =
+      decode_cutouts(in, rule.preset, once, m.section ? &*m.section : nullptr, sure);
+  for (const auto& [name, value] : in.echo())
+    if (name == "cutouts" && !cutouts.all.empty()) named.cutouts = value;
+  if (cutouts.all.empty() || m.section || in.has("up")) return;
+  in.issue({.code = ErrorCode::missing_field,
+            .pointer = "up",
+            .hint = "places of cut-outs round the tube count from this side"});
+}
 
 /// Range of a member that the service does not cut: only its position matters.
 constexpr Range kSomewhere{.min = -1e8, .max = 1e8};
@@ -83,7 +109,8 @@ void decode_shape(Reader& in, bool any_size, NamedMember& named) {
   out.wall = section.wall;
 }
 
-NamedMember decode_member(Reader& in, bool with_joints, bool any_size = false) {
+NamedMember decode_member(Reader& in, bool with_joints, bool any_size = false,
+                          const CutoutRule* rule = nullptr) {
   NamedMember named;
   auto& out = named.member;
   out.name = in.text("id");
@@ -93,6 +120,7 @@ NamedMember decode_member(Reader& in, bool with_joints, bool any_size = false) {
   out.priority = in.integer("priority", 0, kPriorities, 0);
   in.note("up");
   if (in.has("up") || out.section) out.up = in.vector3("up", kComponent);
+  if (rule != nullptr) decode_member_cutouts(in, *rule, !any_size && !in.refused(), named);
   if (with_joints) in.note("joints");
   if (with_joints && in.has("joints"))
     named.joints = in.array("joints", {.min = 0, .max = kMostJoints}, [](Reader& j) {
@@ -219,7 +247,7 @@ namespace {
 
 /// Returns the members that are only out of range, if another one is not: those have no part, and
 /// the others remain valid.
-std::vector<bool> out_of_range(Reader& in) {
+std::vector<bool> out_of_range(Reader& in, const CutoutRule& rule) {
   const auto* field = in.find("members");
   const auto* items = field == nullptr ? nullptr : field->as<Json::Array>();
   std::vector<bool> out;
@@ -227,7 +255,7 @@ std::vector<bool> out_of_range(Reader& in) {
   for (std::size_t i = 0; items != nullptr && i < items->size(); ++i) {
     Reader alone((*items)[i]);
     alone.set_stop(in.stop());
-    if ((*items)[i].as<Json::Object>() != nullptr) (void)decode_member(alone, false);
+    if ((*items)[i].as<Json::Object>() != nullptr) (void)decode_member(alone, false, false, &rule);
     const auto issues = alone.finish_root();
     any = any || issues.empty();
     out.push_back(!issues.empty() && std::ranges::all_of(issues, [](const FieldIssue& issue) {
@@ -250,14 +278,18 @@ Json::Object section_fields(const Reader& member) {
 
 }  // namespace
 
-NamedMembers decode_named_members(Reader& in) {
+NamedMembers decode_named_members(Reader& in, Preset preset) {
   constexpr double kThickest = 0.9;  // fraction of a radius: drawn thickness of a wall that exceeds
                                      // it
   NamedMembers out;
-  const auto any_size = out_of_range(in);
+  const auto* kerf = in.find("kerf_mm");  // read, and held against its range, later
+  const auto* width = kerf == nullptr ? nullptr : kerf->as<double>();
+  const CutoutRule rule{preset, width == nullptr ? 0.0 : *width};
+  const auto any_size = out_of_range(in, rule);
   for (auto& one : in.array("members", {.min = 1, .max = kMembers}, [&](Reader& m) {
          const auto i = out.walls.size();
-         auto member = decode_member(m, false, i < any_size.size() && any_size[i]);
+         auto member = decode_member(m, false, i < any_size.size() && any_size[i], &rule);
+         out.cutouts.push_back(member.cutouts);
          out.walls.push_back(member.member.wall);
          out.sections.push_back(section_fields(m));
          return member;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/endpoints/section_target.hpp"
+#include "api/endpoints/tube_laser.hpp"
 #include "api/wire/reader.hpp"
 #include "core/joint/node/node.hpp"
 
@@ -25,10 +26,12 @@ struct NamedMembers {
   std::vector<joint::Member> members;
   std::vector<double> walls;  // as they are given: of one out of range its member has another
   std::vector<Json::Object> sections;  // of those that are not round: its fields as they are given
+  std::vector<Json> cutouts;           // of each, with their defaults; null without
   MemberIds ids;
 };
 /// If a member is out of range, it has no issue unless all are, because its part reports the error.
-[[nodiscard]] NamedMembers decode_named_members(Reader& in);
+/// `preset`: of the request, for the members' cut-outs.
+[[nodiscard]] NamedMembers decode_named_members(Reader& in, Preset preset);
 
 struct NamedNode {
   joint::NodeSpec spec;

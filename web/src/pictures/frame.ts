@@ -8,6 +8,7 @@ import {figures, plural, text} from './facts';
 import {itemsOf, lightsOf, size, standings, told, toneOf, type Told} from './frame_items';
 import {add, bounds, dot, frame, partner, placed, squareEnd, tube, unitVector, vector, type Sizes} from './geometry';
 import {finished} from './part';
+import {openingsOf} from './section_part';
 import {endOf, girthOf, shellOf, squareShell, type ShellEnd} from './section_solid';
 
 const link = 'frame';
@@ -124,7 +125,7 @@ function sectionMember(cut: Row, given: Row | undefined, line: Row | undefined):
   const points = ['start', 'finish'].map((side) => made && ((made.result['ends'] as Row)[side] as Row)['points']) as [Row?, Row?];
   const ends = points.map((each, i) => (each ? endOf(section, each) : squareShell(section, i && line ? lengthOf(line) : 0))) as [ShellEnd, ShellEnd];
   const girth = girthOf(section);
-  return shellOf(ends, {outer: girth, inner: girth});
+  return {...shellOf(ends, {outer: girth, inner: girth}), openings: made ? openingsOf(section, made.result) : []};
 }
 
 /** Returns the joints: where branches end on their partners, or pass through them. */

@@ -16,6 +16,7 @@ import {
 import {colour} from '../dom';
 import {type Assembly, heightsOf, type MemberPart, reachOf} from '../picture';
 import {holedTube, ink, matrix, metal, shell, thinned} from './meshes';
+import {openings} from './openings';
 
 const many = 60; // members, from which each is seen so small that a few columns and its outer edges do
 const columns = {fine: 4, coarse: 15}; // degrees
@@ -141,7 +142,10 @@ export class Members extends Group {
 }
 
 function meshesOf(part: MemberPart, afar: boolean): Group {
-  if ('cuts' in part) return shell(part);
+  if ('cuts' in part) {
+    const drawn = shell(part);
+    return part.openings?.length ? drawn.add(openings(part.openings)) : drawn;
+  }
   if (!afar) return holedTube(part, undefined, columns.fine);
   return holedTube({...part, from: thinned(part.from, columns.coarse), to: thinned(part.to, columns.coarse)}, undefined, columns.coarse);
 }
