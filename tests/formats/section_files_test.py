@@ -10,6 +10,7 @@ import xml.etree.ElementTree as xml
 import zipfile
 
 import step_reader
+import step_volume
 from dstv_test import parse, rows_of
 from dxf_test import length, polylines, read
 from service import FormatTest, drawing_seed, examples, main
@@ -222,7 +223,7 @@ class SectionFiles(FormatTest):
                 openings = sum(len(group["instances"]) for group in answer["result"].get("cutouts", []))
                 self.assertEqual(step_reader.faults(solid, 1 + openings), [])
                 wanted = answer["result"]["lengths"]["volume_mm3"]
-                self.assertAlmostEqual(step_reader.volume(solid) / wanted, 1, delta=2e-6)
+                self.assertAlmostEqual(step_volume.volume(solid) / wanted, 1, delta=2e-6)
                 names = {face["name"] for face in solid.faces}
                 self.assertEqual({name for name in names if not name.startswith("cut-out ")}, {"outside", "bore", "start", "finish"})
                 holes += openings
@@ -246,7 +247,8 @@ class SectionFiles(FormatTest):
                 return {"cutters": [plane, stub], "root_surface": "inner", "smoothing": {"method": "none"}, **cut}
             return {"cutters": [rng.choice([chord, plane])], "root_surface": "inner", "smoothing": {"method": "none"}, **cut}
         sampling = rng.choice([{"tolerance_mm": 0.02}, {"uniform_points": 72}])
-        return {"cutouts": self.drawn_cutouts(lengths), "target": target, "ends": {"start": end(), "finish": end()}, "kerf_mm": 0, "torch": {"min_deg": -85, "max_deg": 85}, "sampling": sampling}
+        return {"cutouts": self.drawn_cutouts(lengths), "target": target, "ends": {"start": end(), "finish": end()}, "kerf_mm": 0,
+                "torch": {"min_deg": -85, "max_deg": 85}, "sampling": sampling}
 
     def drawn_cutouts(self, lengths):
         """One of each kind on faces with room for it, 80 mm apart in the middle of a tube 900 mm long."""

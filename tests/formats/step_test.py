@@ -9,6 +9,7 @@ import re
 import drawn_parts
 import numpy as np
 import step_reader
+import step_volume
 from service import FormatTest, cutouts, drawing_seed, examples, main, thinned
 
 PARTS = int(os.environ.get("TUBECUT_PARTS", "24"))  # enough for every kind; ./dev soak drawn takes more
@@ -166,7 +167,7 @@ class Step(FormatTest):
                 solid = solid_of(content)
                 self.assertEqual(step_reader.faults(solid, 1 + len(result["holes"])), [])
                 volume = result["lengths"]["volume_mm3"]
-                off = abs(step_reader.volume(solid) - volume)
+                off = abs(step_volume.volume(solid) - volume)
                 self.assertLess(off, volume_off(body["target"], result))
                 far = off_cut(solid, exact_points(r, body, result, 60))
                 self.assertLess(far, NEAR_CUT)
@@ -250,7 +251,7 @@ class Step(FormatTest):
                 "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}}}
         whole = self.service.answer("parts", body)["result"]["lengths"]["volume_mm3"]
         told = self.service.answer("parts", body | {"holes": [hole]})["result"]["lengths"]["volume_mm3"]
-        own = step_reader.volume(solid_of(self.service.text("parts", body | {"holes": [hole]}, "format=step&view=straight")))
+        own = step_volume.volume(solid_of(self.service.text("parts", body | {"holes": [hole]}, "format=step&view=straight")))
         self.assertLess(abs(own - told), LEANING_OFF * (whole - told))
 
     def test_header_and_product(self):
@@ -285,7 +286,7 @@ class Step(FormatTest):
                 solid = step_reader.Solid(file, brep)
                 self.assertEqual(step_reader.faults(solid, 1 + len(part["result"]["holes"])), [])
                 volume = part["result"]["lengths"]["volume_mm3"]
-                self.assertLess(abs(step_reader.volume(solid) - volume), VOLUME_OFF * volume)
+                self.assertLess(abs(step_volume.volume(solid) - volume), VOLUME_OFF * volume)
 
     def test_what_is_no_solid_of_this_kind_is_refused(self):
         def hole(at):

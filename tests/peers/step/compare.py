@@ -14,6 +14,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "formats"))
 import drawn_parts  # noqa: E402
 import step_reader  # noqa: E402
+import step_volume  # noqa: E402
 import step_test  # noqa: E402
 
 AT_ONCE = 50
@@ -57,7 +58,7 @@ def main(server, reader, wanted="1000", seed=None):
                     print(f"the cut is {far:.2g} mm off: {json.dumps(body)}", flush=True)
                 worst["cut"] = max(worst["cut"], far)
                 told = result["lengths"]["volume_mm3"]
-                own = abs(step_reader.volume(solid) - told)
+                own = abs(step_volume.volume(solid) - told)
                 beyond += not own <= step_test.volume_off(body["target"], result)
                 worst["volume"] = max(worst["volume"], own / told)
                 rows = step_test.rows_of(body, result)
