@@ -13,7 +13,6 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "formats"))
 import drawn_parts  # noqa: E402
-import step_reader  # noqa: E402
 import step_volume  # noqa: E402
 import step_test  # noqa: E402
 
