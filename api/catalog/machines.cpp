@@ -70,12 +70,20 @@ motion::Kinematics decode_generic(Reader& in) {
   return out;
 }
 
+motion::Kinematics decode_tube_table(Reader& in) {
+  motion::TubeTable out;
+  out.pivot_length = in.number("pivot_length_mm", kArm, 0.0);
+  out.standoff = in.number("standoff_mm", kArm, 0.0);
+  return out;
+}
+
 using DecodeKinematics = motion::Kinematics (*)(Reader&);
 constexpr std::array kKinds{
     Option<DecodeKinematics>{motion::FiveAxisCutter::kName, decode_five_axis_cutter},
     Option<DecodeKinematics>{motion::Crawler::kName, decode_crawler},
     Option<DecodeKinematics>{motion::ConeMill::kName, decode_cone_mill},
-    Option<DecodeKinematics>{motion::Generic::kName, decode_generic}};
+    Option<DecodeKinematics>{motion::Generic::kName, decode_generic},
+    Option<DecodeKinematics>{motion::TubeTable::kName, decode_tube_table}};
 static_assert(kKinds.size() == std::variant_size_v<motion::Kinematics>, "every kind is read");
 
 void optional_field(std::string_view name, const std::optional<double>& value, Writer& w) {
@@ -118,6 +126,10 @@ struct KinematicFields {
     optional_field("standoff_max_mm", m.standoff_max, w);
   }
   void operator()(const motion::ConeMill&) const {}
+  void operator()(const motion::TubeTable& m) const {
+    w.field("pivot_length_mm", m.pivot_length);
+    w.field("standoff_mm", m.standoff);
+  }
   void operator()(const motion::Generic& m) const {
     if (m.maps.empty()) return;
     w.array("maps", m.maps, [](Writer& each, const motion::LinearMap& map) {

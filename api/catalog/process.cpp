@@ -52,6 +52,7 @@ struct PivotLength {
   }
   std::optional<double> operator()(const motion::ConeMill& /*m*/) const { return std::nullopt; }
   std::optional<double> operator()(const motion::Generic& /*m*/) const { return std::nullopt; }
+  std::optional<double> operator()(const motion::TubeTable& m) const { return m.pivot_length; }
 };
 
 void refuse_choice(Reader& in, ErrorCode code, std::string_view name, const std::string& list,

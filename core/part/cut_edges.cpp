@@ -1,8 +1,10 @@
 #include "core/part/cut_edges.hpp"
 
+#include <limits>
 #include <utility>
 
 #include "core/base/stop.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::part {
 

@@ -130,14 +130,15 @@ void add_up(const motion::Counted& stretch, const std::stop_token& stop,
 class Between {
  public:
   explicit Between(const Looked& l) : l_(l), machine_(l.spec.machine) {
-    if (auto* const cutter = std::get_if<motion::FiveAxisCutter>(&machine_.kinematics)) {
-      pivot_ = cutter->pivot_length;
+    const auto lift = motion::lift_of(machine_);
+    if (lift) {
+      pivot_ = lift->pivot_length;
       lifts_ = true;
-      cutter->standoff = l.spec.setup.pierce_off();
+      motion::set_standoff(machine_, l.spec.setup.pierce_off());
     }
     for (std::size_t a = 0; a < machine_.axes.size(); ++a) {
       const auto& name = machine_.axes[a].name;
-      high_.push_back(lifts_ && (name == "Z1" || name == "Z2"));
+      high_.push_back(lift && (name == lift->axis || name == lift->fine));
       if (name == "B") swing_ = a;
     }
   }
@@ -167,10 +168,10 @@ class Between {
     motion::AxisValues values(counted, machine_);
     double before = height(values.now());
     for (std::size_t k = 0; k < counted.periods && !stops(l_.stop, k); ++k) {
-      const double b = values.now()[swing_];
+      const double b = swing(values.now());
       values.step(k);
       const double now = height(values.now());
-      const double swung = (values.now()[swing_] - b) * kRadPerDeg;
+      const double swung = (swing(values.now()) - b) * kRadPerDeg;
       const double bend = pivot_ * swung * swung / 8.0;
       if (level(counted, k))
         see(clear_, l_.spec.setup.clearance + radius - std::min(before, now) + bend,
@@ -199,7 +200,12 @@ class Between {
     double pivot = 0.0;
     for (std::size_t a = 0; a < q.size(); ++a)
       if (high_[a]) pivot += q[a];
-    return pivot - pivot_ * elementary::cos(q[swing_] * kRadPerDeg);
+    return pivot - pivot_ * elementary::cos(swing(q) * kRadPerDeg);
+  }
+
+  /// Returns the axis B in deg; 0 of a machine that does not swing.
+  [[nodiscard]] double swing(const std::vector<double>& q) const {
+    return swing_ ? q[*swing_] : 0.0;
   }
 
   /// Returns the change of the tip's height by rounding to pulses.
@@ -208,7 +214,7 @@ class Between {
     for (std::size_t a = 0; a < high_.size(); ++a) {
       const double half = 0.5 / machine_.axes[a].pulses_per_axis_unit();
       if (high_[a]) out += half;
-      if (a == swing_) out += pivot_ * half * kRadPerDeg;
+      if (swing_ == a) out += pivot_ * half * kRadPerDeg;
     }
     return out;
   }
@@ -232,7 +238,7 @@ class Between {
   double pivot_ = 0.0;
   bool lifts_ = false;
   std::vector<bool> high_ = {};
-  std::size_t swing_ = 0;
+  std::optional<std::size_t> swing_ = {};  // the axis B
   Worst pierce_ = {}, delay_ = {}, clear_ = {};
 };
 

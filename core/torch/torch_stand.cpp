@@ -11,8 +11,7 @@ namespace {
 
 Result<std::vector<motion::AxisFunction>> functions(motion::Machine machine,
                                                     const motion::CutPath& tube, double off) {
-  if (auto* const cutter = std::get_if<motion::FiveAxisCutter>(&machine.kinematics))
-    cutter->standoff = off;
+  motion::set_standoff(machine, off);
   return motion::axis_functions({.cut = tube, .machine = std::move(machine)});
 }
 
@@ -36,15 +35,15 @@ Result<TorchStand> TorchStand::of(const motion::Machine& machine, const motion::
 }
 
 void TorchStand::set_height(const motion::CutPath& tube, const Setup& setup) {
-  const auto* const cutter = std::get_if<motion::FiveAxisCutter>(&machine_.kinematics);
-  if (cutter == nullptr) return;
+  const auto lift = motion::lift_of(machine_);
+  if (!lift) return;
   const auto find = [&](std::string_view name) {
     return static_cast<std::size_t>(std::ranges::find(machine_.axes, name, &motion::Axis::name) -
                                     machine_.axes.begin());
   };
-  Height height{.axis = find("Z1"),
-                .clear = tube.outer_radius + cutter->pivot_length + setup.clearance};
-  if (const auto fine = find("Z2"); fine < machine_.axes.size()) height.fine = fine;
+  Height height{.axis = find(lift->axis),
+                .clear = tube.outer_radius + lift->pivot_length + setup.clearance};
+  if (const auto fine = find(lift->fine); fine < machine_.axes.size()) height.fine = fine;
   height_ = height;
 }
 

@@ -75,6 +75,11 @@ def torch(machine, tube, q):
         phi, along, arm = q["S"] / (tube.outer + machine["wheel_offset_mm"]), q["E"], None
         pivot = machine["swing_center"] == "pivot"
         height = np.full_like(along, tube.outer + (machine["pivot_length_mm"] if pivot else 0.0))
+    elif machine["type"] == "tube_table":
+        up, arm = -np.radians(q["A"]), machine.get("pivot_length_mm", 0.0) + machine.get("standoff_mm", 0.0)
+        radial, tangential, axial = unit_vectors(up)
+        point = q["Z"][:, None] * radial + q["X"][:, None] * tangential + q["Y"][:, None] * axial
+        return Beam(up, point, into_part(machine) * np.radians(q.get("B", np.zeros_like(up)))), arm
     else:
         phi, along, b = generic_place(machine, q)
         radial, _, axial = unit_vectors(phi)
@@ -107,6 +112,10 @@ def demanded(machine, tube, phi, z, b):
         rise = np.hypot(pivot[:, 0], pivot[:, 1]) - tube.outer - arm  # against the upright torch
         return {"C": np.degrees(phi), "Y": pivot[:, 2], "B": counted, "Z2": share * rise,
                 "Z1": tube.outer + arm + (1 - share) * rise}
+    if machine["type"] == "tube_table":
+        pivot = outer - (machine.get("pivot_length_mm", 0.0) + machine.get("standoff_mm", 0.0)) * beam.direction
+        axes = {"A": -np.degrees(phi), "X": np.zeros_like(phi), "Y": pivot[:, 2], "Z": np.hypot(pivot[:, 0], pivot[:, 1]), "B": counted}
+        return {a["name"]: axes[a["name"]] for a in machine["axes"]}
     if machine["type"] == "crawler":
         up = machine["pivot_length_mm"] if machine["swing_center"] == "pivot" else 0.0
         way = up / -np.einsum("ij,ij->i", beam.direction, radial)

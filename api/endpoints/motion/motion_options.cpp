@@ -81,9 +81,8 @@ void decode_tolerances(Reader& in, motion::Motion& out) {
 
 /// Decodes heights, for a machine that lifts its torch; otherwise its control has them.
 void decode_heights(Reader& in, const motion::Machine& machine, torch::Setup& out) {
-  const auto* const cutter = std::get_if<motion::FiveAxisCutter>(&machine.kinematics);
-  if (cutter != nullptr) {
-    out.cut_height = cutter->standoff;
+  if (const auto lift = motion::lift_of(machine)) {
+    out.cut_height = lift->standoff;
     out.clearance = in.number("clearance_mm", kTipClearance, torch::kClearance);
     const Range below{.min = 0.0, .max = out.clearance};
     if (in.understood("clearance_mm"))

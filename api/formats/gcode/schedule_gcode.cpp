@@ -136,10 +136,10 @@ std::string header(const motion::Machine& machine, const motion::Schedule& s,
 /// A program begins clear of the tube: there first, from wherever the torch is.
 std::string lifted(const motion::Machine& machine, const motion::Schedule& s,
                    const std::vector<char>& letters, const Post& post) {
-  const auto axis = std::ranges::find(machine.axes, "Z1", &motion::Axis::name);
-  if (!std::holds_alternative<motion::FiveAxisCutter>(machine.kinematics) ||
-      axis == machine.axes.end())
-    return {};
+  const auto lift = motion::lift_of(machine);
+  if (!lift) return {};
+  const auto axis = std::ranges::find(machine.axes, lift->axis, &motion::Axis::name);
+  if (axis == machine.axes.end()) return {};
   const auto a = static_cast<std::size_t>(axis - machine.axes.begin());
   return post_line(post.rapid, {{"axes", word(post, letters[a], axis->unit, s.axes[a].start)}});
 }

@@ -133,6 +133,11 @@ function wayOf(machine: Body, counts: Counts, start: Numbers, periods: number, t
     const height = tube.outer - tube.surface + (machine.swing_center === 'pivot' ? num('pivot_length_mm') : 0);
     return S.map((s, i) => at(s / (tube.outer + num('wheel_offset_mm')) / RAD, E[i], height, sign * B[i]));
   }
+  if (machine.type === 'tube_table') {
+    // Of a round tube, whose table has no use for its axis across.
+    const [A, Y, B] = ['A', 'Y', 'B'].map(column);
+    return A.map((turn, i) => at(-turn, Y[i], tube.outer - tube.surface + (num('pivot_length_mm') + num('standoff_mm')) * Math.cos(B[i] * RAD), sign * B[i]));
+  }
   if (machine.type !== 'generic') return [];
   const maps = machine.maps as unknown as Numbers[];
   return path[0].map((_, i) => {
@@ -206,7 +211,7 @@ export function checkReplay(scope: Scope, request: Body, result: Body, machine: 
   scope.not('invariants', 'the others are against the smoothed path of the service, which is in no answer');
   const stated = result.path as unknown as {[name: string]: number[]};
   const way = checkWay(scope, request, machine, counts, start, periods);
-  if (!way.length && stated.phi_deg.length) scope.not('path', 'the tube is not in the request');
+  if (!way.length && stated.z_mm.length) scope.not('path', 'the tube is not in the request');
   if (!way.length) return;
   scope.same('replay_periods', stated.phi_deg.length, way.length, 0, '');
   way.forEach(({phi, z, b}, i) => {

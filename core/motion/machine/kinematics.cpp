@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::motion {
 namespace {
 
-constexpr std::size_t kPhi = 0, kZ = 1, kB = 2;
+constexpr std::size_t kPhi = 0, kZ = 1, kB = 2, kPx = 3, kPy = 4;
+constexpr double kUpright = 1e-9;  // rad; a smaller B is none
 
 AxisFunction linear(double phi, double z, double b, double constant = 0.0) {
   AxisFunction f;
@@ -62,6 +64,18 @@ struct CutPathAxes {
     }
     return out;
   }
+  Result<std::vector<AxisFunction>> operator()(const TubeTable& table) const {
+    const bool swings = std::ranges::count(machine.axes, "B", &Axis::name) > 0;
+    double most = 0.0;
+    for (const double b : cut_path.b) most = std::max(most, std::abs(b));
+    if (!swings && most > kUpright) {
+      return fail({ErrorCode::unsupported_combination, "machine/axes", most * kDegPerRad, 0.0,
+                   "deg", "the cut swings the torch by up to this B, and there is no axis B"});
+    }
+    std::vector<AxisFunction> out;
+    for (const Axis& axis : machine.axes) out.push_back(of(table, axis.name));
+    return out;
+  }
 
  private:
   [[nodiscard]] double past_radius() const { return cut_path.outer_radius - cut_path.radius(); }
@@ -81,6 +95,25 @@ struct CutPathAxes {
     } else if (cutter.z2_share > 0.0) {
       f.constant = -cutter.z2_share * length;
       f.cos_b = cutter.z2_share * length;
+    }
+    return f;
+  }
+
+  [[nodiscard]] AxisFunction of(const TubeTable& table, const std::string& name) const {
+    const double length = table.pivot_length + table.standoff;
+    if (name == "A") return linear(-kDegPerRad, 0.0, 0.0);
+    if (name == "B") return linear(0.0, 0.0, kDegPerRad);
+    AxisFunction f;
+    if (name == "X") {
+      f.across = cut_path.section ? 1.0 : 0.0;
+    } else if (name == "Y") {
+      f = linear(0.0, 1.0, 0.0);
+      f.sin_b = -machine.sigma() * length;
+      f.tan_b = -machine.sigma() * past_radius();
+    } else {
+      f.out = cut_path.section ? 1.0 : 0.0;
+      f.constant = cut_path.section ? 0.0 : cut_path.outer_radius;
+      f.cos_b = length;
     }
     return f;
   }
@@ -121,6 +154,23 @@ std::vector<AxisFunction> mill_tip(const AxisColumns& cut, const Machine& machin
   return out;
 }
 
+/// Checks that the machine keeps the normal of a section up, at a speed along its outside.
+Result<void> check_section(const ScheduleSpec& spec) {
+  if (!crosses(spec.machine)) {
+    const std::string name =
+        spec.machine.name.empty() ? std::string(type_name(spec.machine)) : spec.machine.name;
+    return fail({ErrorCode::unsupported_combination, "machine", name, std::string(TubeTable::kName),
+                 std::string{},
+                 "the target is not round, and machine " + name +
+                     " has no axis across the tube: take a machine of type tube_table"});
+  }
+  if (spec.motion.speed_on != Surface::outer) {
+    return fail({ErrorCode::unsupported_combination, "motion/speed_on", "inner", "outer",
+                 std::string{}, "the speed on a bore requires a round target"});
+  }
+  return {};
+}
+
 double dot(const Coordinates& a, const Coordinates& b) {
   double sum = 0.0;
   for (std::size_t c = 0; c < kMostCoordinates; ++c) sum += a[c] * b[c];
@@ -132,15 +182,50 @@ double dot(const Coordinates& a, const Coordinates& b) {
 double AxisFunction::at(const Coordinates& x) const {
   if (is_linear()) return constant + dot(linear, x);
   const auto [sin, cos] = elementary::sincos(x[kB]);
-  return at(Pose{x, sin, cos});
+  if (!turns()) return at(Pose{x, sin, cos});
+  const auto up = elementary::sincos(x[kPhi]);
+  return at(Pose{x, sin, cos, up.sin, up.cos});
 }
 
 double AxisFunction::at(const Pose& pose) const {
   const double q = constant + dot(linear, pose.x);
   if (is_linear()) return q;
   const double tilt = tan_b == 0.0 ? 0.0 : tan_b * pose.sin_b / pose.cos_b;
-  return q + (sin_b * pose.sin_b + cos_b * pose.cos_b + tilt);
+  const double bent = q + (sin_b * pose.sin_b + cos_b * pose.cos_b + tilt);
+  if (!turns()) return bent;
+  const double x = pose.x[kPx], y = pose.x[kPy];
+  return bent +
+         (across * (y * pose.cos_up - x * pose.sin_up) + out * (x * pose.cos_up + y * pose.sin_up));
 }
+
+namespace {
+
+/// The tip's height p . n and its place across p . t, or one of their derivatives.
+struct Upright {
+  double out = 0.0, across = 0.0;
+};
+
+Upright upright(const Jet& jet, const Coordinates& x) {
+  return {x[kPx] * jet.cos_up + x[kPy] * jet.sin_up, x[kPy] * jet.cos_up - x[kPx] * jet.sin_up};
+}
+
+/// Computes the three derivatives of p . n and p . t: those of p as they stand, and the turn of n
+/// and t, n' = x_0' t and t' = -x_0' n.
+std::array<Upright, 3> upright_derivatives(const Jet& jet) {
+  const auto p = upright(jet, jet.value), p1 = upright(jet, jet.first);
+  const auto p2 = upright(jet, jet.second), p3 = upright(jet, jet.third);
+  const double a1 = jet.first[kPhi], a2 = jet.second[kPhi], a3 = jet.third[kPhi];
+  const double square = a1 * a1;
+  return {{{p1.out + a1 * p.across, p1.across - a1 * p.out},
+           {p2.out + 2.0 * a1 * p1.across + a2 * p.across - square * p.out,
+            p2.across - 2.0 * a1 * p1.out - a2 * p.out - square * p.across},
+           {p3.out + 3.0 * (a1 * p2.across + a2 * p1.across - square * p1.out) + a3 * p.across -
+                3.0 * a1 * a2 * p.out - square * a1 * p.across,
+            p3.across - 3.0 * (a1 * p2.out + a2 * p1.out + square * p1.across) - a3 * p.out -
+                3.0 * a1 * a2 * p.across + square * a1 * p.out}}};
+}
+
+}  // namespace
 
 std::array<double, 3> AxisFunction::derivatives(const Jet& jet) const {
   std::array<double, 3> q{dot(linear, jet.first), dot(linear, jet.second), dot(linear, jet.third)};
@@ -155,11 +240,15 @@ std::array<double, 3> AxisFunction::derivatives(const Jet& jet) const {
   q[0] += f1 * b1;
   q[1] += f2 * b1 * b1 + f1 * b2;
   q[2] += f3 * b1 * b1 * b1 + 3.0 * f2 * b1 * b2 + f1 * b3;
+  if (!turns()) return q;
+  const auto moved = upright_derivatives(jet);
+  for (std::size_t k = 0; k < q.size(); ++k) q[k] += out * moved[k].out + across * moved[k].across;
   return q;
 }
 
 Result<std::vector<AxisFunction>> axis_functions(const ScheduleSpec& spec) {
   if (const auto* const cut_path = std::get_if<CutPath>(&spec.cut)) {
+    if (cut_path->section) TRY(check_section(spec));
     return std::visit(CutPathAxes{spec.machine, *cut_path}, spec.machine.kinematics);
   }
   return column_axes(spec.machine);
@@ -167,6 +256,7 @@ Result<std::vector<AxisFunction>> axis_functions(const ScheduleSpec& spec) {
 
 std::vector<AxisFunction> speed_functions(const ScheduleSpec& spec) {
   if (const auto* const cut_path = std::get_if<CutPath>(&spec.cut)) {
+    if (cut_path->section) return {coordinate(kPx), coordinate(kPy), coordinate(kZ)};
     const double rho =
         spec.motion.speed_on == Surface::outer ? cut_path->outer_radius : cut_path->inner_radius();
     AxisFunction along = linear(0.0, 1.0, 0.0);

@@ -19,6 +19,7 @@ AxisNames axis_names(const Machine& machine) {
     AxisNames operator()(const Crawler&) const { return {{"S", "E", "B"}}; }
     AxisNames operator()(const ConeMill&) const { return {{"C", "X", "Z", "B"}}; }
     AxisNames operator()(const Generic&) const { return {}; }
+    AxisNames operator()(const TubeTable&) const { return {{"A", "X", "Y", "Z"}, {"B"}}; }
   };
   return std::visit(Of{}, machine.kinematics);
 }
@@ -111,6 +112,10 @@ struct KinematicsCheck {
     if (crawler.standoff_max) found.within("standoff_max", *crawler.standoff_max, 0.0, kMaxLength);
   }
   void operator()(const ConeMill&) const {}
+  void operator()(const TubeTable& table) const {
+    found.within("pivot_length", table.pivot_length, 0.0, kMaxLength);
+    found.within("standoff", table.standoff, 0.0, kMaxLength);
+  }
   void operator()(const Generic& generic) const {
     if (!generic.maps.empty() && generic.maps.size() != machine.axes.size()) {
       found.add(ErrorCode::wrong_count, "maps", static_cast<double>(generic.maps.size()),
@@ -185,6 +190,15 @@ Machine generic() {
           .axes = {rotary("C", 360000, 60, 300, 6000), slide("Z", 200, 1000, 20000), swing()}};
 }
 
+/// Without a swing: it cuts square. The turn of such tables is fast, because a corner of a tube
+/// that is not round takes a quarter of a turn.
+Machine tube_table() {
+  return {.name = "tube_table",
+          .kinematics = TubeTable{.standoff = 1.0},
+          .axes = {rotary("A", 360000, 180, 1800, 90000), slide("X", 200, 2000, 100000),
+                   slide("Y", 200, 2000, 100000), slide("Z", 200, 2000, 100000)}};
+}
+
 /// Returns the source whose machine has these axes; empty when the type is our own.
 std::string source_of(const Machine& machine) {
   struct Of {
@@ -192,6 +206,7 @@ std::string source_of(const Machine& machine) {
     std::string operator()(const Crawler&) const { return "source 002"; }
     std::string operator()(const ConeMill&) const { return "source 001"; }
     std::string operator()(const Generic&) const { return {}; }
+    std::string operator()(const TubeTable&) const { return {}; }
   };
   return std::visit(Of{}, machine.kinematics);
 }
@@ -206,6 +221,9 @@ std::vector<std::string> kinematic_members(const Machine& machine) {
     }
     std::vector<std::string> operator()(const ConeMill&) const { return {}; }
     std::vector<std::string> operator()(const Generic&) const { return {"maps"}; }
+    std::vector<std::string> operator()(const TubeTable&) const {
+      return {"pivot_length", "standoff"};
+    }
   };
   return std::visit(Of{}, machine.kinematics);
 }
@@ -242,6 +260,24 @@ std::string_view type_name(const Machine& machine) {
   return std::visit([]<class Kind>(const Kind&) { return Kind::kName; }, machine.kinematics);
 }
 
+std::optional<Lift> lift_of(const Machine& machine) {
+  if (const auto* const cutter = std::get_if<FiveAxisCutter>(&machine.kinematics))
+    return Lift{"Z1", "Z2", cutter->pivot_length, cutter->standoff};
+  if (const auto* const table = std::get_if<TubeTable>(&machine.kinematics))
+    return Lift{"Z", "", table->pivot_length, table->standoff};
+  return std::nullopt;
+}
+
+void set_standoff(Machine& machine, double standoff) {
+  if (auto* const cutter = std::get_if<FiveAxisCutter>(&machine.kinematics))
+    cutter->standoff = standoff;
+  if (auto* const table = std::get_if<TubeTable>(&machine.kinematics)) table->standoff = standoff;
+}
+
+bool crosses(const Machine& machine) {
+  return std::holds_alternative<TubeTable>(machine.kinematics);
+}
+
 Result<void> check(const Machine& machine) {
   Findings found;
   found.within("period", machine.period, 1e-5, 1.0);
@@ -263,7 +299,8 @@ double velocity_limit(const Axis& axis, double period) {
 }
 
 std::vector<CatalogueEntry> catalogue() {
-  return {entry(five_axis_cutter()), entry(crawler()), entry(cone_mill()), entry(generic())};
+  return {entry(five_axis_cutter()), entry(crawler()), entry(cone_mill()), entry(generic()),
+          entry(tube_table())};
 }
 
 }  // namespace tubecut::motion

@@ -44,6 +44,19 @@ struct FiveAxisCutter {
   double z2_share = 0.0;      // fraction of the height given to Z2; 0: left to the height control
 };
 
+/// A table that turns the tube (A) under a torch that moves across it (X), along it (Y) and up and
+/// down (Z), and swings along it if there is an axis B. The wall's normal at the torch is kept up,
+/// so the table cuts tubes that are not round as well.
+///
+/// Frame  (X, Y, Z) is right-handed, Y along the tube into the kept part, Z up, zero on the tube's
+///        axis. A turns about +Y; A = 0 has phi = 0 (of a section the middle of face 1) up, so
+///        A = -phi brings the place at phi up.
+struct TubeTable {
+  static constexpr std::string_view kName = "tube_table";
+  double pivot_length = 0.0;  // pivot to torch tip, mm; Y and Z are the pivot's
+  double standoff = 0.0;      // tip to wall, mm
+};
+
 enum class SwingCenter : std::uint8_t { remote, pivot };
 
 /// Source 002: a carriage that crawls around the pipe (S), a cross slide (E) and the swing (B).
@@ -72,7 +85,7 @@ struct Generic {
   std::vector<LinearMap> maps = {};  // empty if the cut comes as plain axis columns
 };
 
-using Kinematics = std::variant<FiveAxisCutter, Crawler, ConeMill, Generic>;
+using Kinematics = std::variant<FiveAxisCutter, Crawler, ConeMill, Generic, TubeTable>;
 
 /// The direction in which the machine counts B: towards the outer edge lying further into the kept
 /// part, or towards the scrap.
@@ -90,6 +103,20 @@ struct Machine {
     return b_positive == BPositive::outer_edge_into_part ? -1.0 : 1.0;
   }
 };
+
+/// The axis that lifts the torch, and what it carries.
+struct Lift {
+  std::string_view axis;  // its name
+  std::string_view fine;  // name of a second one; empty: the type has none
+  double pivot_length = 0.0;
+  double standoff = 0.0;
+};
+/// Returns it; empty if the machine's type has no axis for the height of the torch.
+[[nodiscard]] std::optional<Lift> lift_of(const Machine& machine);
+/// Sets the standoff of a machine that lifts its torch; others stay as they are.
+void set_standoff(Machine& machine, double standoff);
+/// Returns true if the machine moves its torch across the tube, as a tube that is not round needs.
+[[nodiscard]] bool crosses(const Machine& machine);
 
 /// Returns the name of its kind on the wire, `kName` of its kinematics.
 [[nodiscard]] std::string_view type_name(const Machine& machine);

@@ -23,7 +23,8 @@ struct Slope {
 /// `rho`. If it misses, returns its nearest point.
 Flat on_surface(const PartBorder& part, const CutPoint& p, Slope tan, double rho) {
   const double radius = part.cut.radius;
-  if (tan.a == 0.0) return {rho * p.phi, p.z - part.sigma * (rho - radius) * tan.b};
+  const double developed = part.cut.section ? radius : rho;
+  if (tan.a == 0.0) return {developed * p.phi, p.z - part.sigma * (rho - radius) * tan.b};
   // Down by h: (r - h)^2 + (h tan a)^2 = rho^2.
   const double square = 1.0 + tan.a * tan.a;
   const double between = radius * radius - rho * rho;

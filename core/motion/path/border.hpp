@@ -37,7 +37,9 @@ struct PartBorder {
                                              const std::stop_token& stop);
 
 /// Computes where the beam at a point meets the surface of radius `rho`, mm, developed there. If it
-/// misses, returns its nearest point.
+/// misses, returns its nearest point. On a section every depth is developed by the girth outside,
+/// because lines normal to the outside do not cross: the side of the border stays right, distances
+/// in corners come out longer than they are.
 [[nodiscard]] Flat on_wall(const PartBorder& part, const CutPoint& point, double rho);
 
 /// Computes how far, in mm, the beam at a point extends into the finished part, over both wall

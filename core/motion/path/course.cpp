@@ -55,6 +55,13 @@ double rounding(const Course& course, const AxisFunction& f) {
     const auto [low, high] = std::ranges::minmax(course.path.control[c]);
     size += std::abs(f.linear[c]) * std::max(std::abs(low), std::abs(high));
   }
+  if (f.turns()) {
+    for (const std::size_t c : {3, 4}) {
+      const auto [low, high] = std::ranges::minmax(course.path.control[c]);
+      size +=
+          2.0 * (std::abs(f.across) + std::abs(f.out)) * std::max(std::abs(low), std::abs(high));
+    }
+  }
   return 4.0 * 2.220446049250313e-16 * size;
 }
 

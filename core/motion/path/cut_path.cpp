@@ -225,6 +225,16 @@ double tilt(const CutPoint& p) {
   return elementary::atan(elementary::hypot(elementary::tan(p.a), elementary::tan(p.b)));
 }
 
+/// Reduces the distances to those from the ends of the flat that each point lies on; 0 on an arc.
+void keep_off_arcs(const Track& t, std::vector<double>& distance) {
+  const auto outside = t.section->outer();
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    const auto at = outside.at(t.radius * t.points[i].phi);
+    const double off = outside.half_flat(at.face) - std::abs(at.along);
+    distance[i] = at.on_corner ? 0.0 : std::min(distance[i], off);
+  }
+}
+
 /// Returns the point with the smallest tilt among those well away from corners; if there are none,
 /// the point farthest from corners.
 std::size_t automatic_start(const Track& t, const std::optional<Angle>& seam) {
@@ -233,6 +243,7 @@ std::size_t automatic_start(const Track& t, const std::optional<Angle>& seam) {
     const double turned = std::remainder(t.points[i].phi - seam->rad(), kTwoPi);
     distance[i] = std::min(distance[i], t.radius * std::abs(turned));
   }
+  if (t.section) keep_off_arcs(t, distance);
   std::size_t best = 0;
   const auto better = [&](std::size_t a, std::size_t b) {
     const bool a_clear = distance[a] >= kFromJunction, b_clear = distance[b] >= kFromJunction;
@@ -294,6 +305,7 @@ Result<Track> track(const CutPath& cut_path) {
   TRY(check_columns(cut_path));
   TRY(check_numbers(cut_path));
   Track t{rows(cut_path), cut_path.radius(), cut_path.closed, 0};
+  t.section = cut_path.section;
   if (cut_path.surface == Surface::outer) t.wall = {cut_path.outer_radius, cut_path.inner_radius()};
   if (t.closed) TRY(close(t, cut_path.scrap));
   TRY(check_duplicates(t));

@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/motion/machine/machine.hpp"
 #include "core/motion/path/straight_edges.hpp"
+#include "core/section/section.hpp"
 
 namespace tubecut::motion {
 
@@ -34,6 +35,9 @@ struct CutPath {
   Surface surface = Surface::outer;
   bool closed = true;
   Scrap scrap = Scrap::minus_z;
+  /// Of a tube that is not round: its section. The points lie on its outside, phi counts its girth
+  /// over `outer_radius`, and the other lengths are those of `around`.
+  std::optional<section::Section> section = {};
 
   [[nodiscard]] double radius() const {
     return surface == Surface::outer ? outer_radius : outer_radius - wall;
@@ -52,7 +56,8 @@ struct Start {
   std::optional<Angle> seam = {};  // an automatic start avoids it like a corner
 };
 
-/// The distance of an automatic start from corners and the seam, mm, if the contour has room.
+/// The distance of an automatic start from corners and the seam, mm, if the contour has room; on a
+/// section also from the corners of the tube, because a lead on a flat turns no axis.
 inline constexpr double kFromJunction = 5.0;
 
 enum class Direction : std::uint8_t { as_given, ccw, cw };
@@ -82,6 +87,7 @@ struct Track {
   bool closed = false;
   int turns = 0;        // of a part of a track: the orientation of the whole
   WallRadii wall = {};  // for points on the outer surface: the wall that their beams cross
+  std::optional<section::Section> section = {};  // of a tube that is not round
 
   /// Returns the distance of two points along the developed surface, mm; B is ignored.
   [[nodiscard]] double tip_step(std::size_t from, std::size_t to) const;

@@ -12,7 +12,6 @@ namespace tubecut::motion {
 namespace {
 
 constexpr double kSpacing = 0.1;      // mm between knots, before any halving
-constexpr double kWidestTip = 1.0;    // mm, full width of one mean over the tip's coordinates
 constexpr double kWidestBevel = 6.0;  // mm, of one mean over B
 constexpr double kLeastTip = 1e-3;    // mm
 constexpr double kLeastBevel = 0.01 * kRadPerDeg;
@@ -236,11 +235,6 @@ std::vector<double> mean(const std::vector<double>& x, std::size_t m, const std:
   return out;
 }
 
-double knot(const std::vector<double>& p, std::size_t j) {
-  if (j == 0 || j + 1 == p.size()) return p[j];
-  return (p[j - 1] + 4.0 * p[j] + p[j + 1]) / 6.0;
-}
-
 using Group = Coordinate::Group;
 
 struct Smoothed {
@@ -256,7 +250,7 @@ Smoothed smoothed(const Program& p, const Resampled& r, Group group, std::size_t
     if (p.coordinates[c].group != group) continue;
     out.control.push_back(box2(r.x[c], m, stop));
     for (std::size_t j = 0; j < square.size() && !stops(stop, j); ++j) {
-      const double off = p.coordinates[c].weight * (knot(out.control.back(), j) - r.x[c][j]);
+      const double off = p.coordinates[c].weight * (at_knot(out.control.back(), j) - r.x[c][j]);
       square[j] = group == Group::tip ? square[j] + off * off : std::max(square[j], off * off);
     }
   }
@@ -287,14 +281,15 @@ Smoothed widest(const Program& p, const Resampled& r, Group group, double most, 
   return best;
 }
 
-Path assembled(const Program& p, const Resampled& r, Smoothed tip, Smoothed bevel) {
+Path assembled(const Program& p, const Resampled& r, Smoothed tip, Smoothed bevel, Smoothed turn) {
   Path path;
   path.d = r.d;
   path.coordinates = p.coordinates;
-  std::size_t t = 0, b = 0;
+  std::size_t t = 0, b = 0, n = 0;
   for (const Coordinate& c : p.coordinates) {
-    path.control.push_back(
-        std::move(c.group == Group::tip ? tip.control[t++] : bevel.control[b++]));
+    path.control.push_back(std::move(c.group == Group::tip     ? tip.control[t++]
+                                     : c.group == Group::bevel ? bevel.control[b++]
+                                                               : turn.control[n++]));
   }
   path.deviation_tip = tip.deviation;
   path.deviation_b = bevel.deviation / kBevelWeight;
@@ -304,76 +299,12 @@ Path assembled(const Program& p, const Resampled& r, Smoothed tip, Smoothed beve
   return path;
 }
 
-double behind(const std::vector<double>& p, std::size_t j) {
-  return j == 0 ? 2.0 * p[0] - p[1] : p[j - 1];
-}
-double ahead(const std::vector<double>& p, std::size_t j) {
-  return j + 1 == p.size() ? 2.0 * p[j] - p[j - 1] : p[j + 1];
-}
-
-/// Position, slope, curvature and third derivative of one coordinate at a knot, for the interval
-/// after it.
-struct Cubic {
-  double x, first, second, third;
-};
-Cubic cubic(const std::vector<double>& p, std::size_t i, double d) {
-  const double a = behind(p, i), b = p[i], c = p[i + 1], e = ahead(p, i + 1);
-  return {knot(p, i), (c - a) / (2.0 * d), (c - 2.0 * b + a) / (d * d),
-          (e - 3.0 * c + 3.0 * b - a) / (d * d * d)};
-}
-
 }  // namespace
 
 std::vector<double> box2(const std::vector<double>& x, std::size_t m, const std::stop_token& stop) {
   std::vector<double> out = mean(mean(x, m, stop), m, stop);
   out.front() = x.front();
   out.back() = x.back();
-  return out;
-}
-
-std::array<double, 4> Path::cubic(std::size_t c, std::size_t i) const {
-  const auto [x, first, second, third] = motion::cubic(control[c], i, d);
-  return {x, first, 0.5 * second, third / 6.0};
-}
-
-Coordinates Path::at(std::size_t i, double offset) const {
-  return PathCursor(*this, false).at(i, offset).x;
-}
-
-Pose PathCursor::at(std::size_t i, double w) {
-  const std::size_t n = path_.control.size();
-  if (i != interval_) {
-    for (std::size_t c = 0; c < n; ++c) cubic_[c] = path_.cubic(c, i);
-    interval_ = i;
-  }
-  const bool end = i + 1 == path_.intervals() && w >= path_.d;
-  Pose out;
-  for (std::size_t c = 0; c < n; ++c) {
-    const auto& q = cubic_[c];
-    out.x[c] = end ? path_.control[c].back() : q[0] + w * (q[1] + w * (q[2] + w * q[3]));
-  }
-  if (bends_) {
-    const auto [sin, cos] = elementary::sincos(out.x[2]);
-    out.sin_b = sin;
-    out.cos_b = cos;
-  }
-  return out;
-}
-
-Jet Path::jet(std::size_t i, double w, bool bends) const {
-  Jet out;
-  for (std::size_t c = 0; c < control.size(); ++c) {
-    const Cubic q = motion::cubic(control[c], i, d);
-    out.value[c] = q.x + w * (q.first + w * (0.5 * q.second + w * (q.third / 6.0)));
-    out.first[c] = q.first + w * (q.second + w * 0.5 * q.third);
-    out.second[c] = q.second + w * q.third;
-    out.third[c] = q.third;
-  }
-  if (bends) {
-    const auto [sin, cos] = elementary::sincos(out.value[2]);
-    out.sin_b = sin;
-    out.cos_b = cos;
-  }
   return out;
 }
 
@@ -388,11 +319,12 @@ Result<Path> smooth_path(const Program& p, double eps_tip, Angle eps_b, std::sto
   // Without smoothing a knot is off by at most d / 3, so the halving ends.
   for (double d = kSpacing;; d *= 0.5) {
     TRY(const auto samples, resample(p, d, eps_tip, eps_b.rad(), stop));
-    Smoothed tip = widest(p, samples, Group::tip, kWidestTip, eps_tip, stop);
+    Smoothed tip = widest(p, samples, Group::tip, p.widest, eps_tip, stop);
+    Smoothed turn = widest(p, samples, Group::turn, 0.0, eps_tip, stop);
     Smoothed swing = widest(p, samples, Group::bevel, kWidestBevel, bevel, stop);
     if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
     if (tip.deviation <= eps_tip && swing.deviation <= bevel) {
-      return assembled(p, samples, std::move(tip), std::move(swing));
+      return assembled(p, samples, std::move(tip), std::move(swing), std::move(turn));
     }
   }
 }

@@ -23,6 +23,8 @@ struct Path {
   std::vector<double> at_point = {};  // u of every point of the program, mm of generalised length
 
   [[nodiscard]] std::size_t intervals() const { return control.front().size() - 1; }
+  /// Returns true if its first coordinate is the angle of a section's normal.
+  [[nodiscard]] bool turns() const { return coordinates.front().group == Coordinate::Group::turn; }
   [[nodiscard]] double length() const { return d * static_cast<double>(intervals()); }
   /// Computes the coordinates at `offset` mm, 0..d, after knot `i`. Exact at both ends of the path.
   [[nodiscard]] Coordinates at(std::size_t i, double offset) const;
@@ -31,6 +33,10 @@ struct Path {
   /// Computes the same with three derivatives along u. If `bends` is set, also sin B and cos B.
   [[nodiscard]] Jet jet(std::size_t interval, double offset, bool bends) const;
 };
+
+/// Returns the uniform cubic B-spline of these control points at knot `j`; at both ends it is the
+/// control point.
+[[nodiscard]] double at_knot(const std::vector<double>& control, std::size_t j);
 
 /// Evaluates a path at a sequence of places; caches the cubic of the current interval.
 class PathCursor {

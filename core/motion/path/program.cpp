@@ -6,6 +6,8 @@
 
 #include "core/base/try.hpp"
 #include "core/motion/path/lead.hpp"
+#include "core/motion/path/stretch.hpp"
+#include "core/motion/path/upright.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -30,6 +32,55 @@ Program from_points(const std::vector<CutPoint>& points, double radius) {
   return out;
 }
 
+/// The most that smoothing moves the tip into the outside of a section, mm. A triangle of half
+/// width l moves it by l^2 / (12 r) on an arc of radius r.
+constexpr double kIntoArc = 0.03;
+
+/// Converts the points of a path around a section to the program of a machine that keeps the normal
+/// up. Adds points on arcs, because the chord of two points of the path may cut off a corner.
+Program over_section(const CutWithLead& way, const Track& whole, Angle lean) {
+  const Upright up(*whole.section, lean);
+  const double radius = whole.radius;
+  std::vector<CutPoint> points;
+  std::size_t first = 0, last = 0;
+  for (std::size_t i = 0; i < way.points.size(); ++i) {
+    if (i > 0) {
+      const CutPoint &a = way.points[i - 1], &b = way.points[i];
+      auto places = up.places(radius * std::min(a.phi, b.phi), radius * std::max(a.phi, b.phi));
+      if (b.phi < a.phi) std::ranges::reverse(places);
+      for (const double s : places)
+        points.push_back(between(whole.wall, a, b, (s / radius - a.phi) / (b.phi - a.phi)));
+    }
+    if (i == way.cut_first) first = points.size();
+    if (i == way.cut_last) last = points.size();
+    points.push_back(way.points[i]);
+  }
+  Program out = from_points(points, 0.0);
+  out.coordinates[0].group = Coordinate::Group::turn;
+  out.coordinates.resize(5, {1.0, Coordinate::Group::tip});
+  out.x.resize(5);
+  for (double& angle : out.x[0]) {
+    const double s = radius * angle;
+    const auto tip = up.point(s);
+    angle = up.angle(s);
+    out.x[3].push_back(tip.x());
+    out.x[4].push_back(tip.y());
+  }
+  out.cut_first = first;
+  out.cut_last = last;
+  out.widest = std::min(out.widest, std::sqrt(12.0 * whole.section->corner * kIntoArc));
+  return out;
+}
+
+/// Returns the program of points on the outside of a tube, round or a section.
+Program over(const CutWithLead& way, const Track& whole, const Motion& motion) {
+  if (whole.section) return over_section(way, whole, motion.lean);
+  Program out = from_points(way.points, whole.radius);
+  out.cut_first = way.cut_first;
+  out.cut_last = way.cut_last;
+  return out;
+}
+
 /// Returns the contour in its direction; for a sector, only that part of it.
 Result<Track> stretch(Track whole, const Motion& motion) {
   if (motion.sector) {
@@ -40,11 +91,9 @@ Result<Track> stretch(Track whole, const Motion& motion) {
 }
 
 /// Returns the program of points that were placed along a checked path.
-Program of_way(const CutWithLead& way, const Track& whole, bool with_lead) {
-  Program out = from_points(way.points, whole.radius);
-  out.cut_first = way.cut_first;
-  out.cut_last = way.cut_last;
-  out.closed = !with_lead && !way.stretch && whole.closed;
+Program of_way(const CutWithLead& way, const Track& whole, const Motion& motion) {
+  Program out = over(way, whole, motion);
+  out.closed = !motion.lead && !way.stretch && whole.closed;
   out.turns = out.closed ? whole.turns : 0;
   return out;
 }
@@ -53,21 +102,18 @@ Result<Program> of_cut_path(const CutPath& cut_path, const ScheduleSpec& spec,
                             const std::stop_token& stop) {
   TRY(auto whole, track(cut_path));
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  if (spec.way) return of_way(*spec.way, whole, spec.motion.lead.has_value());
+  if (spec.way) return of_way(*spec.way, whole, spec.motion);
   TRY(const auto cut, stretch(std::move(whole), spec.motion));
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   if (!spec.motion.lead) {
-    Program out = from_points(cut.points, cut.radius);
+    Program out = over({cut.points, 0, cut.points.size() - 1}, cut, spec.motion);
     out.closed = cut.closed;
     out.turns = cut.turns;
     return out;
   }
   TRY(const auto border, part_border(cut_path, spec.machine.sigma(), stop));
   TRY(const auto way, clear_lead(border, cut, *spec.motion.lead, spec.motion.eps_tip, stop));
-  Program out = from_points(way.points, cut.radius);
-  out.cut_first = way.cut_first;
-  out.cut_last = way.cut_last;
-  return out;
+  return over(way, cut, spec.motion);
 }
 
 Coordinate coordinate_of(const Axis& axis, const AxisColumns& columns, bool turns_tip) {

@@ -15,12 +15,15 @@ inline constexpr double kBevelWeight = 10.0;
 
 /// One coordinate of the path. `weight` turns its unit into mm of generalised length.
 struct Coordinate {
-  enum class Group : std::uint8_t { tip, bevel };  // smoothed within eps_tip or eps_b
+  /// Smoothed within eps_tip or eps_b; `turn` is smooth already, and no part of the length,
+  /// because the tip moves wherever it changes.
+  enum class Group : std::uint8_t { tip, bevel, turn };
   double weight = 1.0;
   Group group = Group::tip;
 };
 
-/// The polyline to be followed, coordinate by coordinate: phi, z, B of a contour, or axis columns.
+/// The polyline to be followed, coordinate by coordinate: phi, z, B of a contour; of a section the
+/// angle of its normal, z, B and the tip's x and y across the tube; or axis columns.
 struct Program {
   std::vector<Coordinate> coordinates = {};
   /// [coordinate][point], rad and mm (axis units for columns).
@@ -31,6 +34,8 @@ struct Program {
   std::size_t cut_last = 0;       // points after it are the lead-out
   bool closed = false;            // ends where it starts: no lead, no overcut, no sector
   int turns = 0;                  // of phi over a closed contour
+  /// The full width of one mean over the tip's coordinates, mm.
+  double widest = 1.0;
 
   [[nodiscard]] std::size_t size() const { return x.front().size(); }
   /// Returns the generalised distance of two neighbouring points, mm.

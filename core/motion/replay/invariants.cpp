@@ -6,6 +6,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/motion/path/lead.hpp"
+#include "core/motion/path/upright.hpp"
 #include "core/motion/schedule/schedule.hpp"
 
 namespace tubecut::motion {
@@ -14,6 +15,8 @@ namespace {
 constexpr double kLook = 0.5;  // mm that the follower searches ahead beyond all allowances
 constexpr std::size_t kLongWindow = 25;  // periods of I15
 constexpr double kLeadStep = 0.05;       // mm of tip path between checks of the lead's clearance
+/// The most that smoothing may move the tip off the outside of a section, mm.
+constexpr double kOffSection = 0.05;
 
 using Group = Coordinate::Group;
 
@@ -22,6 +25,8 @@ struct Allowance {
   double tip = 0.0;        // I10, mm
   double skipped = 0.0;    // I11, mm
   double bevel = 0.0;      // I12, rad
+  double turn = 0.0;       // I12 of the angle of a section's normal, rad
+  double standoff = 0.0;   // I13, mm
   double place = 0.0;      // I12: the path distance within which B may vary, mm
   double speed = 0.0;      // t_q of the speed's trace, mm
   double thickness = 0.0;  // shift of the beam on the far wall per rad of B, mm
@@ -102,6 +107,9 @@ class Examination {
     allow_.place = allow_.tip + 0.5 * path.d;
     allow_.skipped = near + 0.5 * fastest() * counted_.period + 0.5 * path.d;
     allow_.bevel = motion.eps_b.rad() + path.sag_b + bevel;
+    allow_.turn = motion.eps_b.rad() + quantum_[0];
+    allow_.standoff = torch_.standoff_quantum() * (1.0 + 1e-6);
+    if (path.turns()) allow_.standoff += kOffSection;
     for (const AxisFunction& f : job_.course.tip) {
       const double q = trace_quantum(f);
       allow_.speed += q * q;
@@ -142,7 +150,7 @@ class Examination {
     tip_.see(found.distance, allow_.tip);
     see_bevel(x, follower, found.at);
     if (const auto error = torch_.standoff_error(q)) {
-      standoff_.see(std::abs(*error), torch_.standoff_quantum() * (1.0 + 1e-6));
+      standoff_.see(std::abs(*error), allow_.standoff);
     }
     if (speed_known()) see_speed(x, follower, found, k);
     if (border_) see_lead(x, follower, found.at);
@@ -151,10 +159,13 @@ class Examination {
   void see_bevel(const Coordinates& x, const Follower& follower, double at) {
     for (std::size_t c = 0; c < job_.program.x.size(); ++c) {
       const Coordinate& coordinate = job_.program.coordinates[c];
-      if (coordinate.group != Group::bevel || !torch_.knows(c)) continue;
+      if (is_tip(c) || !torch_.knows(c)) continue;
       const auto [low, high] = follower.range(c, at, allow_.place);
       const double off = std::max({0.0, low - x[c], x[c] - high});
-      bevel_.see(off * coordinate.weight / kBevelWeight * kDegPerRad, allow_.bevel * kDegPerRad);
+      if (coordinate.group == Group::turn)
+        bevel_.see(off * kDegPerRad, allow_.turn * kDegPerRad);
+      else
+        bevel_.see(off * coordinate.weight / kBevelWeight * kDegPerRad, allow_.bevel * kDegPerRad);
     }
   }
 
@@ -214,7 +225,9 @@ class Examination {
         at < follower.tip_length(program.cut_first) || at > follower.tip_length(program.cut_last);
     if (!lead || std::abs(at - lead_at_) < kLeadStep) return;
     lead_at_ = at;
-    const CutPoint point{x[0], x[1], x[2], false, 0.0};
+    CutPoint point{x[0], x[1], x[2], false, 0.0};
+    if (const auto& section = border_->cut.section)
+      point.phi = girth_at(*section, {x[3], x[4]}) / border_->cut.radius;
     lead_.see(intrusion(*border_, point, stop_),
               lead_touch(*border_, spec_.motion.eps_tip) + allow_.tip + allow_.thickness);
   }

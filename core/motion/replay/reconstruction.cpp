@@ -6,11 +6,12 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
+#include "core/motion/path/upright.hpp"
 
 namespace tubecut::motion {
 namespace {
 
-constexpr std::size_t kPhiAxis = 0, kZ = 1, kB = 2;
+constexpr std::size_t kPhiAxis = 0, kZ = 1, kB = 2, kX = 3, kY = 4;
 
 std::size_t index_of(const std::vector<Axis>& axes, std::string_view name) {
   return static_cast<std::size_t>(std::ranges::find(axes, name, &Axis::name) - axes.begin());
@@ -77,6 +78,8 @@ Reconstruction::Reconstruction(const ScheduleSpec& spec)
     pivot_ = crawler->swing_center == SwingCenter::pivot ? crawler->pivot_length : 0.0;
     wheel_ = outer_ + crawler->wheel_offset;
     roles_ = {index_of(axes_, "S"), index_of(axes_, "E"), index_of(axes_, "B"), 0, 0, false};
+  } else if (const auto* const table = std::get_if<TubeTable>(&spec.machine.kinematics)) {
+    set_table(*table);
   } else if (const auto* const generic = std::get_if<Generic>(&spec.machine.kinematics)) {
     set_generic(*generic);
     return;
@@ -87,6 +90,19 @@ Reconstruction::Reconstruction(const ScheduleSpec& spec)
 void Reconstruction::set_tube(const CutPath& cut_path) {
   outer_ = cut_path.outer_radius;
   past_ = cut_path.outer_radius - cut_path.radius();
+  section_ = cut_path.section;
+}
+
+void Reconstruction::set_table(const TubeTable& table) {
+  kind_ = Kind::table;
+  pivot_ = table.pivot_length + table.standoff;
+  roles_ = {.phi = index_of(axes_, "A"),
+            .z = index_of(axes_, "Y"),
+            .b = index_of(axes_, "B"),
+            .height = index_of(axes_, "Z"),
+            .across = index_of(axes_, "X")};
+  roles_.has_b = roles_.b < axes_.size();
+  known_[kX] = known_[kY] = section_.has_value();
 }
 
 /// Solves least squares over the coordinates that any axis follows. If the rank is too low, no
@@ -145,11 +161,37 @@ Coordinates Reconstruction::at(const std::vector<double>& q) const {
       x[kB] = b;
       return x;
     }
+    case Kind::table:
+      return at_table(q);
   }
   return x;
 }
 
+/// Undoes the swing, then the turn: the tip is where the torch stands over the turned tube.
+Coordinates Reconstruction::at_table(const std::vector<double>& q) const {
+  const double b = roles_.has_b ? q[roles_.b] * kRadPerDeg : 0.0;
+  const double above = q[roles_.height] - pivot_ * elementary::cos(b);
+  const double across = q[roles_.across];
+  const double up = -q[roles_.phi] * kRadPerDeg;
+  Coordinates x = origin_;
+  x[kPhiAxis] = section_ ? up : up + elementary::atan2(across, above);
+  x[kZ] = q[roles_.z] + sigma_ * (pivot_ * elementary::sin(b) + past_ * elementary::tan(b));
+  x[kB] = b;
+  if (!section_) return x;
+  const auto [sin, cos] = elementary::sincos(up);
+  x[kX] = above * cos - across * sin;
+  x[kY] = above * sin + across * cos;
+  return x;
+}
+
 std::optional<double> Reconstruction::standoff_error(const std::vector<double>& q) const {
+  if (kind_ == Kind::table) {
+    const Coordinates x = at_table(q);
+    if (section_) return beyond_outside(*section_, {x[kX], x[kY]});
+    const double b = x[kB];
+    return elementary::hypot(q[roles_.height] - pivot_ * elementary::cos(b), q[roles_.across]) -
+           outer_;
+  }
   if (kind_ != Kind::five_axis) return std::nullopt;
   const double fine = roles_.has_fine ? q[roles_.fine] : 0.0;
   const double drop = pivot_ * elementary::cos(q[roles_.b] * kRadPerDeg);
@@ -171,12 +213,14 @@ Coordinates Reconstruction::quantum(double largest_b) const {
         for (std::size_t c = 0; c < 3; ++c) out[c] += std::abs(inverse_[a][c]) * half_pulse(a);
       }
       return out;
+    case Kind::table:
     case Kind::five_axis:
     case Kind::crawler:
       break;
   }
   const double cos = elementary::cos(largest_b);
   const double slope = std::max(4.0, 1.0 / (cos * cos));  // of tan B
+  if (kind_ == Kind::table) return table_quantum(slope);
   const double tilt = kind_ == Kind::five_axis ? pivot_ + slope * past_ : slope * (past_ + pivot_);
   out[kB] = half_pulse(roles_.b) * kRadPerDeg;
   out[kZ] = half_pulse(roles_.z) + tilt * out[kB];
@@ -185,7 +229,23 @@ Coordinates Reconstruction::quantum(double largest_b) const {
   return out;
 }
 
+Coordinates Reconstruction::table_quantum(double slope) const {
+  Coordinates out{};
+  const double turn = half_pulse(roles_.phi) * kRadPerDeg, across = half_pulse(roles_.across);
+  out[kB] = roles_.has_b ? half_pulse(roles_.b) * kRadPerDeg : 0.0;
+  out[kZ] = half_pulse(roles_.z) + (pivot_ + slope * past_) * out[kB];
+  out[kPhiAxis] = section_ ? turn : turn + across / outer_;
+  if (section_) out[kX] = out[kY] = standoff_quantum();
+  return out;
+}
+
 double Reconstruction::standoff_quantum() const {
+  if (kind_ == Kind::table) {
+    const double swing = roles_.has_b ? pivot_ * half_pulse(roles_.b) * kRadPerDeg : 0.0;
+    const double reach = section_ ? section_->reach() : 0.0;
+    return half_pulse(roles_.height) + half_pulse(roles_.across) + swing +
+           reach * half_pulse(roles_.phi) * kRadPerDeg;
+  }
   if (kind_ != Kind::five_axis) return 0.0;
   const double fine = roles_.has_fine ? half_pulse(roles_.fine) : 0.0;
   return half_pulse(roles_.height) + fine + pivot_ * half_pulse(roles_.b) * kRadPerDeg;

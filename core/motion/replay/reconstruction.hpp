@@ -53,8 +53,8 @@ class Reconstruction {
   /// Computes the coordinates that the axes determine; the others stay 0.
   [[nodiscard]] Coordinates at(const std::vector<double>& axes) const;
   [[nodiscard]] bool knows(std::size_t coordinate) const { return known_[coordinate]; }
-  /// Returns the height of the pivot less the height required by the torch's angle, mm; only for
-  /// machines with a height axis.
+  /// Returns the height of the pivot less the height required by the torch's angle, mm; of a table
+  /// the distance of the tip's place from the outside. Only for machines with a height axis.
   [[nodiscard]] std::optional<double> standoff_error(const std::vector<double>& axes) const;
 
   /// Returns the maximum change of each coordinate by half a pulse on every axis, with |B| up to
@@ -64,14 +64,17 @@ class Reconstruction {
 
  private:
   struct Roles {
-    std::size_t phi = 0, z = 0, b = 0, height = 0, fine = 0;
-    bool has_fine = false;
+    std::size_t phi = 0, z = 0, b = 0, height = 0, fine = 0, across = 0;
+    bool has_fine = false, has_b = true;
   };
   void set_tube(const CutPath& cut_path);
   void set_generic(const Generic& generic);
+  void set_table(const TubeTable& table);
+  [[nodiscard]] Coordinates at_table(const std::vector<double>& axes) const;
+  [[nodiscard]] Coordinates table_quantum(double slope) const;
   [[nodiscard]] double half_pulse(std::size_t axis) const;  // in the axis' unit
 
-  enum class Kind : std::uint8_t { five_axis, crawler, generic, columns };
+  enum class Kind : std::uint8_t { five_axis, crawler, generic, columns, table };
   Kind kind_ = Kind::columns;
   std::vector<Axis> axes_;
   Roles roles_ = {};
@@ -79,7 +82,8 @@ class Reconstruction {
   double pivot_ = 0.0;  // L: pivot to the wall along the beam
   double past_ = 0.0;   // e: radially from the contour's surface to the outer one
   double outer_ = 0.0;
-  double wheel_ = 0.0;  // radius of a crawler's wheel path
+  double wheel_ = 0.0;                            // radius of a crawler's wheel path
+  std::optional<section::Section> section_ = {};  // of a tube that is not round
   std::vector<Coordinates> inverse_ =
       {};  // generic: change of the coordinates per unit of each axis
   Coordinates origin_{};

@@ -101,6 +101,9 @@ void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
     out.phi.push_back(x[0]);
     out.z.push_back(x[1]);
     out.b.push_back(x[2]);
+    if (!torch.knows(4)) continue;  // of a section
+    out.x.push_back(x[3]);
+    out.y.push_back(x[4]);
   }
 }
 

@@ -53,9 +53,10 @@ struct Received {
 
 /// The tool path of the counts, one more point than periods, and every invariant.
 struct Replay {
-  std::vector<double> phi = {};  // rad; contour cuts
+  std::vector<double> phi = {};  // rad; contour cuts; of a section the angle of the torch's plane
   std::vector<double> z = {};    // mm
   std::vector<double> b = {};    // rad, as the machine counts it
+  std::vector<double> x = {}, y = {};  // mm across the tube; only of a section
   std::vector<Check> invariants = {};
   double deviation = 0.0;  // largest distance of the tip to the contour, mm
 };

@@ -18,7 +18,9 @@ struct PreparedCut;
 struct Program;
 
 /// The largest distance of the edges that a planned path cuts to those of its contour, whose
-/// points' edges are joined straight in (phi, z) on each wall: smoothing and sag together, mm.
+/// points' edges are joined straight in (phi, z) on each wall: smoothing and sag together, mm. Of a
+/// section in space, because its program has points enough; its inner edge is that of a wall as
+/// thick as it is anywhere, so it deviates at most so much.
 struct EdgeDeviation {
   double outer = 0.0;
   double inner = 0.0;
@@ -91,6 +93,8 @@ struct Report {
       0.0;  // pulses by which a whole revolution differs from a whole count; crawler
   std::vector<Use> max_use = {};
   std::vector<SlowZone> slow = {};
+  /// Only for a section: the largest angle between the torch's plane and the normal, rad.
+  std::optional<double> lean = {};
   /// Only for a contour.
   std::optional<EdgeDeviation> edges = {};
 };
@@ -117,6 +121,13 @@ struct Report {
 [[nodiscard]] std::optional<EdgeDeviation> edge_deviation(const ScheduleSpec& spec,
                                                           const Program& program, const Path& path,
                                                           const std::stop_token& stop);
+
+/// Returns the largest angle between the torch's plane and the normal of the outside at the tip,
+/// rad: that of the blend, and what smoothing the tip adds. Empty unless the cut is of a section.
+///
+/// Accuracy  taken at the path's knots.
+[[nodiscard]] std::optional<double> largest_lean(const ScheduleSpec& spec, const Path& path,
+                                                 const std::stop_token& stop);
 
 /// Computes the times if the whole cut is slowed, if only its segments are slowed, and if neither
 /// is.

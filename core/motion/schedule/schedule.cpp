@@ -135,6 +135,7 @@ Result<PlannedCut> plan_cut(const ScheduleSpec& spec, const std::stop_token& sto
   PlannedCut out{.job = std::move(job), .plan = std::move(timed)};
   out.events = events(out.job, out.plan);
   out.report = report(spec, out.job, out.plan, stop);
+  out.report.lean = largest_lean(spec, out.job.course.path, stop);
   out.report.edges = edge_deviation(spec, out.job.program, out.job.course.path, stop);
   if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
   return out;

@@ -37,6 +37,9 @@ struct Motion {
   Surface speed_on = Surface::outer;
   double eps_tip = 0.1;  // mm
   Angle eps_b = Angle::deg(0.5);
+  /// The largest lean of the torch's plane from the normal at the corners of a section: the angle
+  /// of the normal is blended over its seams as far as it permits.
+  Angle lean = Angle::deg(1.0);
   bool jerk = true;
   bool compare = false;
   Start start = {};

@@ -5,8 +5,9 @@
 namespace tubecut::motion {
 namespace {
 
-constexpr std::size_t kBevel = 2;          // index of the coordinate B
-constexpr double kNearValue = 1.0 / 16.0;  // rad; beyond it the series would leave 1e-18
+constexpr std::size_t kBevel = 2;               // index of the coordinate B
+constexpr std::size_t kUp = 0, kX = 3, kY = 4;  // of the normal's angle and of the tip across
+constexpr double kNearValue = 1.0 / 16.0;       // rad; beyond it the series would leave 1e-18
 
 /// Rotates sine and cosine of an angle by at most `kNearValue`: Taylor's series of the rotation,
 /// truncated below 3e-19, and the sum of the two angles.
@@ -21,6 +22,13 @@ elementary::SinCos turned(const elementary::SinCos& of, double by) {
   return {of.sin + (of.cos * sine - of.sin * less), of.cos - (of.sin * sine + of.cos * less)};
 }
 
+/// Returns sine and cosine of an angle, a cubic, this far after its start.
+elementary::SinCos moved(const std::array<double, 4>& angle, const elementary::SinCos& at_start,
+                         double w) {
+  const double by = w * (angle[1] + w * (angle[2] + w * angle[3]));
+  return std::abs(by) <= kNearValue ? turned(at_start, by) : elementary::sincos(angle[0] + by);
+}
+
 }  // namespace
 
 ValueCursor::ValueCursor(const Path& path, std::span<const AxisFunction> functions)
@@ -30,7 +38,9 @@ ValueCursor::ValueCursor(const Path& path, std::span<const AxisFunction> functio
       values_(functions_.size()) {
   for (std::size_t f = 0; f < functions_.size(); ++f) {
     const AxisFunction& q = functions_[f];
-    if (!q.is_linear()) bends_.push_back({f, q.sin_b, q.cos_b, q.tan_b});
+    if (q.sin_b != 0.0 || q.cos_b != 0.0 || q.tan_b != 0.0)
+      bends_.push_back({f, q.sin_b, q.cos_b, q.tan_b});
+    if (q.turns()) turns_.push_back({f, q.across, q.out});
   }
 }
 
@@ -49,14 +59,23 @@ void ValueCursor::enter(std::size_t interval) {
     sum[0] = functions_[f].constant + sum[0];
     linear_[f] = sum;
   }
+  if (!turns_.empty()) {
+    up_ = x[kUp];
+    x_ = x[kX];
+    y_ = x[kY];
+    up_at_start_ = elementary::sincos(up_[0]);
+  }
   if (bends_.empty()) return;
   b_ = x[kBevel];
   at_start_ = elementary::sincos(b_[0]);
 }
 
-elementary::SinCos ValueCursor::lean(double w) const {
-  const double by = w * (b_[1] + w * (b_[2] + w * b_[3]));
-  return std::abs(by) <= kNearValue ? turned(at_start_, by) : elementary::sincos(b_[0] + by);
+void ValueCursor::add_turns(double w) {
+  const auto at = [w](const Cubic& q) { return q[0] + w * (q[1] + w * (q[2] + w * q[3])); };
+  const auto [sin, cos] = moved(up_, up_at_start_, w);
+  const double x = at(x_), y = at(y_);
+  for (const Turn& q : turns_)
+    values_[q.function] += q.across * (y * cos - x * sin) + q.out * (x * cos + y * sin);
 }
 
 const std::vector<double>& ValueCursor::at(const Place& place) {
@@ -71,8 +90,9 @@ const std::vector<double>& ValueCursor::at(const Place& place) {
     const Cubic& q = linear_[f];
     values_[f] = q[0] + w * (q[1] + w * (q[2] + w * q[3]));
   }
+  if (!turns_.empty()) add_turns(w);
   if (bends_.empty()) return values_;
-  const auto [sin, cos] = lean(w);
+  const auto [sin, cos] = moved(b_, at_start_, w);
   for (const Bend& q : bends_) {
     values_[q.function] +=
         q.sin_b * sin + q.cos_b * cos + (q.tan_b == 0.0 ? 0.0 : q.tan_b * sin / cos);

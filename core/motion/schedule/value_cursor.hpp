@@ -12,8 +12,8 @@
 namespace tubecut::motion {
 
 /// Computes functions of a path's coordinates at a sequence of places. Within an interval the
-/// coordinates are cubics, so the linear part of every function is one too, and B's sine and cosine
-/// are rotated from those at its start.
+/// coordinates are cubics, so the linear part of every function is one too, and the sine and cosine
+/// of B, and of the angle of a section's normal, are rotated from those at its start.
 ///
 /// Accuracy  at the start of an interval and at the path's end bit-equal to `AxisFunction::at`,
 ///           else within 4e-16 of the sum of the magnitudes of its terms.
@@ -31,17 +31,22 @@ class ValueCursor {
     std::size_t function;
     double sin_b, cos_b, tan_b;
   };
+  struct Turn {
+    std::size_t function;
+    double across, out;
+  };
   void enter(std::size_t interval);
-  [[nodiscard]] elementary::SinCos lean(double offset) const;
+  void add_turns(double offset);
 
   const Path& path_;
   std::vector<AxisFunction> functions_;
   std::vector<Bend> bends_ = {};
+  std::vector<Turn> turns_ = {};
   std::size_t interval_ = static_cast<std::size_t>(-1);
   std::vector<Cubic> linear_;
   std::vector<double> values_;
-  Cubic b_{};
-  elementary::SinCos at_start_{};
+  Cubic b_{}, up_{}, x_{}, y_{};
+  elementary::SinCos at_start_{}, up_at_start_{};
 };
 
 }  // namespace tubecut::motion

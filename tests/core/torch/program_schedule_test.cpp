@@ -118,6 +118,28 @@ TEST_F(Scheduled, HoldsEveryInvariant) {
     EXPECT_TRUE(names.contains(name)) << name;
 }
 
+/// On a table the height is axis Z, also without a swing, and X rests over a round tube.
+TEST(OnATable, HoldsEveryInvariant) {
+  for (const bool swings : {true, false}) {
+    auto spec = program();
+    spec.machine = motion::catalogue().back().machine;
+    spec.machine.kinematics = motion::TubeTable{.pivot_length = 150.0, .standoff = 1.5};
+    if (swings)
+      spec.machine.axes.push_back(program().machine.axes.back());
+    else
+      for (auto& cut : spec.cuts) std::ranges::fill(cut.path.b, 0.0);
+    const auto made = schedule(spec);
+    ASSERT_TRUE(made) << made.error().issues.front().member << made.error().issues.front().hint;
+    EXPECT_TRUE(broken(spec, *made).empty()) << *broken(spec, *made).begin();
+    EXPECT_TRUE(made->whole.axes[1].idle());
+    std::int64_t sum = 0, highest = 0;
+    for (const auto n : made->whole.axes[3].counts) highest = std::max(highest, sum += n);
+    const double per_unit = spec.machine.axes[3].pulses_per_axis_unit();
+    EXPECT_NEAR(made->whole.axes[3].start + static_cast<double>(highest) / per_unit,
+                kRadius + 150.0 + 40.0, 0.01);
+  }
+}
+
 // By formulas of its own: the pivot of a torch of 150 mm, and the axes' limits by differences.
 TEST_F(Scheduled, StandsWhereTheTorchShould) {
   const auto spec = program();

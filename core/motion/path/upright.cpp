@@ -1,0 +1,119 @@
+#include "core/motion/path/upright.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/elementary.hpp"
+
+namespace tubecut::motion {
+namespace {
+
+constexpr double kStepAngle = 1.5 * kRadPerDeg;  // between points on an arc
+constexpr double kLongestStep = 0.5;             // mm; wide arcs need it for their chords
+constexpr double kStepsOfBlend = 4.0;            // at least so many points to a half width
+
+/// The nearest place of the rectangle that the corners' centres span.
+Eigen::Vector2d in_middle(const section::Section& section, const Eigen::Vector2d& point) {
+  const Eigen::Vector2d half(0.5 * section.height - section.corner,
+                             0.5 * section.width - section.corner);
+  return point.cwiseMax(-half).cwiseMin(half);
+}
+
+}  // namespace
+
+double equal_radius(const section::Section& section) { return section.outer().girth() / kTwoPi; }
+
+double thickest(const section::Section& section) {
+  const section::Wall wall(section);
+  if (wall.concentric()) return section.wall;
+  const auto& outer = wall.outer();
+  const double middle = outer.on_corner(1, 0.125 * kTwoPi);
+  return std::max(section.wall, wall.thickness(outer.at(middle)));
+}
+
+CutPath around(const section::Section& section) {
+  CutPath out;
+  out.outer_radius = equal_radius(section);
+  out.wall = thickest(section);
+  out.section = section;
+  return out;
+}
+
+Upright::Upright(const section::Section& section, Angle lean)
+    : curve_(section.outer()),
+      half_width_(6.0 * section.corner * lean.rad()),
+      step_(std::min({kLongestStep, section.corner * kStepAngle, half_width_ / kStepsOfBlend})) {
+  const auto& pieces = curve_.pieces();
+  const auto curvature = [](const section::Piece& p) { return p.is_arc() ? 1.0 / p.radius : 0.0; };
+  for (std::size_t i = 0; i < pieces.size() && pieces.size() > 1; ++i) {
+    const auto& before = pieces[(i + pieces.size() - 1) % pieces.size()];
+    seams_.push_back({pieces[i].from, curvature(pieces[i]) - curvature(before)});
+  }
+}
+
+double Upright::angle(double s) const {
+  const double girth = curve_.girth();
+  const auto at = curve_.at(s);
+  double out = at.nu + kTwoPi * std::round((s - at.s) / girth);
+  for (const Seam& seam : seams_) {
+    const double apart = std::abs(std::remainder(at.s - seam.s, girth));
+    if (apart >= half_width_) continue;
+    const double left = half_width_ - apart;
+    out += seam.jump * left * left * left / (6.0 * half_width_ * half_width_);
+  }
+  return out;
+}
+
+std::vector<double> Upright::places(double from, double to) const {
+  const double girth = curve_.girth();
+  std::vector<double> out;
+  const auto add = [&](double low, double high) {
+    const double steps = std::ceil((high - low) / step_);
+    for (int k = 0; k <= static_cast<int>(steps); ++k)
+      out.push_back(low + (high - low) * k / steps);
+  };
+  for (const auto& piece : curve_.pieces()) {
+    // Of a flat only its ends are blended; a round outline is one arc.
+    const double reach = seams_.empty() ? 0.0 : half_width_;
+    const double last = std::floor((to - piece.from + reach) / girth);
+    for (double turn = std::floor((from - piece.to() - reach) / girth); turn <= last; ++turn) {
+      if (!piece.is_arc()) continue;
+      const double start = piece.from - reach + turn * girth;
+      const double end = piece.to() + reach + turn * girth;
+      if (end > from && start < to) add(start, end);
+    }
+  }
+  constexpr double kSame = 1e-3;  // mm; nearer points are one
+  std::ranges::sort(out);
+  std::vector<double> kept;
+  for (const double s : out)
+    if (s > from + kSame && s < to - kSame && (kept.empty() || s > kept.back() + kSame))
+      kept.push_back(s);
+  return kept;
+}
+
+double beyond_outside(const section::Section& section, Eigen::Vector2d point) {
+  const Eigen::Vector2d off = point - in_middle(section, point);
+  return elementary::hypot(off.x(), off.y()) - section.corner;
+}
+
+double girth_at(const section::Section& section, Eigen::Vector2d point) {
+  const Eigen::Vector2d off = point - in_middle(section, point);
+  const auto outside = section.outer();
+  if (off.x() == 0.0 || off.y() == 0.0) {
+    const int face = off.x() != 0.0 ? (off.x() > 0.0 ? 1 : 3) : (off.y() < 0.0 ? 4 : 2);
+    const auto n = section::Curve::face_normal(face);
+    return outside.on_face(face, point.dot(Eigen::Vector2d(-n.y(), n.x())));
+  }
+  const double nu = elementary::atan2(off.y(), off.x());
+  const double turned = nu < 0.0 ? nu + kTwoPi : nu;
+  const int before = std::min(3, static_cast<int>(turned / (0.5 * kPi)));  // quarter turns
+  return outside.on_corner(before + 1, turned - 0.5 * kPi * before);
+}
+
+double normal_towards(const section::Section& section, Eigen::Vector2d point) {
+  const Eigen::Vector2d off = point - in_middle(section, point);
+  return elementary::atan2(off.y(), off.x());
+}
+
+}  // namespace tubecut::motion
