@@ -44,12 +44,10 @@ struct BevelTables {
       joined(kTableChecks, std::array<CheckLimit, 1>{{{"on_section", "1e-9", "mm"}}});
 
   static Spec decode(Reader& in) {
-    Spec out;
-    if (!has_section_target(in) && !has_section_end(in)) return {decode_bevel_table_request(in)};
-    out.preset = decode_preset(in);
-    check_accepts(in, out.preset);
-    out.section = decode_section_cut(in, out);
-    return out;
+    if (!cuts_section(in)) return {decode_bevel_table_request(in)};
+    auto out = decode_section_cut_request(in);
+    auto section = out.section;
+    return {BevelTableRequest(std::move(out)), std::move(section)};
   }
 
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {

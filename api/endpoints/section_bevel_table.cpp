@@ -121,6 +121,16 @@ void encode_section_laser(const bevel::SectionTable& t, Writer& w) {
   });
 }
 
+bool cuts_section(const Reader& in) { return has_section_target(in) || has_section_end(in); }
+
+SectionCutRequest decode_section_cut_request(Reader& in) {
+  SectionCutRequest out;
+  out.preset = decode_preset(in);
+  check_accepts(in, out.preset);
+  out.section = decode_section_cut(in, out);
+  return out;
+}
+
 SectionTarget decode_section_cut(Reader& in, BevelTableRequest& out) {
   SectionTarget section;
   if (has_section_target(in)) {

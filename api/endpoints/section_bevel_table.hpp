@@ -19,6 +19,17 @@ namespace tubecut::api {
 /// root gaps of zones, and the limit of tongues.
 [[nodiscard]] SectionTarget decode_section_cut(Reader& in, BevelTableRequest& out);
 
+/// Returns true if a request for a bevel table, also one within another, cuts a target or an end of
+/// a node that is not round.
+[[nodiscard]] bool cuts_section(const Reader& in);
+
+/// A request for the bevel table of a target that is not round.
+struct SectionCutRequest : BevelTableRequest {
+  SectionTarget section;
+};
+/// Reads all of it.
+[[nodiscard]] SectionCutRequest decode_section_cut_request(Reader& in);
+
 /// Refuses fields that a tube which is not round does not have.
 void refuse_fields(Reader& in, std::initializer_list<const char*> fields, std::string_view hint);
 /// Refuses values of a cut that apply only to round targets, each at its own pointer: other

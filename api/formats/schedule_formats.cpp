@@ -36,12 +36,16 @@ std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Sc
   const double radius = outer ? contour.outer_radius : contour.inner_radius();
   const double rise = spec.machine.sigma() * (radius - contour.radius());
   const auto along = [&](std::size_t i) { return path.z[i] - rise * elementary::tan(path.b[i]); };
+  const bool section = contour.section.has_value();
   constexpr std::size_t kMean = 25;  // periods, over which the rounding of pulses averages out
   Pace pace(stop);
   for (std::size_t i = kMean; i < path.phi.size(); ++i) {
     pace.turn();
+    const std::size_t from = i - kMean;
     const double length =
-        std::hypot(radius * (path.phi[i] - path.phi[i - kMean]), along(i) - along(i - kMean));
+        section ? std::hypot(path.x[i] - path.x[from], path.y[i] - path.y[from],
+                             path.z[i] - path.z[from])
+                : std::hypot(radius * (path.phi[i] - path.phi[from]), along(i) - along(from));
     out.push_back(60.0 * length / (static_cast<double>(kMean) * s.period));
   }
   return out;

@@ -182,18 +182,6 @@ TEST(SectionTables, ZonesWithoutRootGapsAreCut) {
   EXPECT_EQ(at(answer.body, "result/points/zone").as<api::Json::Array>()->size(), groove.size());
 }
 
-/// A bevel table within another request is of a round target.
-TEST(SectionTables, SchedulesRefuseTheTarget) {
-  auto job = with(object(), "machine", "five_axis_cutter");
-  job = with(job, "motion/speed/mm_min", 600.0);
-  job = with(job, "cut", with(brace(), "target/kind", "rectangular_tube"));
-  const auto answer = post("/v1/pulse-schedules", job);
-  ASSERT_TRUE(answer.outcome.error);
-  const auto* one = error_at(answer, "/cut/target/kind");
-  ASSERT_NE(one, nullptr) << answer.outcome.body.substr(0, 800);
-  EXPECT_EQ(text(*one, "code"), "unsupported_target");
-}
-
 TEST(SectionTables, CsvHasTheColumnsAndOtherFormatsNameIt) {
   const auto body = api::dump(brace());
   const auto csv = post(kTables, std::string_view(body), "format=csv");

@@ -57,6 +57,7 @@ const exampleNames: Record<string, string> = {
   'pulse-schedules/source-000-table-1-before-and-after': 'Why a plan: jumps of B at full speed',
   'pulse-schedules/source-001-mill-path': 'A groove on the cone mill',
   'pulse-schedules/source-002-offset-pair-on-the-crawler': 'A branch on the crawler',
+  'pulse-schedules/square-tube-on-a-tube-table': 'A square tube on a tube table',
   'pulse-schedules/two-ends-and-four-holes-of-a-part': 'A whole part: two ends and four holes',
   'feed-curves/source-004-table-1-as-printed': 'A published feed curve, as printed',
   'feed-curves/source-004-table-1-as-solved': 'A published feed curve, as solved',

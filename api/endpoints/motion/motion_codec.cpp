@@ -12,6 +12,7 @@
 #include "api/wire/tables.hpp"
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/motion/path/upright.hpp"
 #include "core/part/member.hpp"
 #include "core/torch/marks.hpp"
 
@@ -144,6 +145,17 @@ motion::CutPath contour_of(const bevel::TableSpec& spec, const bevel::Table& tab
   return motion::without_repeats(std::move(out));
 }
 
+/// The torch line of a section's table on its outside, a corner at each event other than a seam.
+motion::CutPath contour_of(const section::Section& section, const bevel::SectionTable& table) {
+  auto out = motion::around(section);
+  for (const auto& at : table.at) out.phi.push_back(at.s / out.outer_radius);
+  out.z = table.torch_outer;
+  out.b = table.b;
+  out.beam = table.beam;
+  out.corner = table.corner;
+  return motion::without_repeats(std::move(out));
+}
+
 /// The mill's emitted positions, closed after one turn of C. A machine counts C on, not modulo a
 /// turn.
 Result<motion::AxisColumns> columns_of(const groove::MillPathSpec& spec,
@@ -201,6 +213,16 @@ struct CutOf {
     warn_of_land("cut/root_face_mm", {}, spec.root_face);
     return (*this)(contour_of(spec, table));
   }
+  Result<motion::Cut> operator()(const SectionCutRequest& asked) const {
+    TRY(const auto spec, under("cut", resolve(BevelTableRequest(asked), stop)));
+    const auto& section = asked.section.section;
+    TRY(const auto table,
+        under("cut", on_node(spec.source, bevel::section_table(section, spec, stop))));
+    job.checks = bevel::verify(section, spec, table, stop);
+    job.warnings = under("cut", on_node(spec.source, table.warnings));
+    warn_of_land("cut/root_face_mm", {}, spec.root_face);
+    return (*this)(contour_of(section, table));
+  }
   Result<motion::Cut> operator()(const groove::MillPathSpec& spec) const {
     TRY(const auto path, under("mill_path", groove::mill_path(spec, stop)));
     job.checks = groove::verify(spec, path, stop);
@@ -237,15 +259,31 @@ struct CutOf {
   }
 };
 
+/// Refuses a machine that cannot cut around a tube that is not round, next to all other problems.
+void check_crosses(Reader& in, const motion::Machine& machine) {
+  if (!in.sound("machine") || motion::crosses(machine)) return;
+  const std::string name =
+      machine.name.empty() ? std::string(motion::type_name(machine)) : machine.name;
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = "machine",
+            .got = Json{name},
+            .limit = Json{std::string(motion::TubeTable::kName)},
+            .hint = "the target is not round, and machine " + name +
+                    " has no axis across the tube: take a machine of type tube_table"},
+           in.find("machine"));
+}
+
 }  // namespace
 
 ScheduleRequest decode_schedule_request(Reader& in) {
   ScheduleRequest out;
   out.machine = decode_machine_choice(in, "machine");
-  switch (in.exactly_one({"cut", "contour", "mill_path", "axes", "part"}).value_or(5)) {
+  const auto chosen = in.exactly_one({"cut", "contour", "mill_path", "axes", "part"});
+  switch (chosen.value_or(5)) {
     case 0:
-      out.cut = in.object("cut", [](Reader& cut) {
+      out.cut = in.object("cut", [](Reader& cut) -> CutSource {
         read_inner_common_fields(cut);
+        if (cuts_section(cut)) return decode_section_cut_request(cut);
         return decode_bevel_table_request(cut);
       });
       break;
@@ -282,8 +320,11 @@ ScheduleRequest decode_schedule_request(Reader& in) {
     out.setup = asked.setup;
     out.marks = asked.marks;
   } else {
-    out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut); });
+    const bool section = std::holds_alternative<SectionCutRequest>(out.cut);
+    const bool certain = chosen && (chosen != 0U || section || in.sound("cut"));
+    out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut, certain); });
   }
+  if (std::holds_alternative<SectionCutRequest>(out.cut)) check_crosses(in, out.machine);
   const auto* contour = std::get_if<motion::CutPath>(&out.cut);
   const auto* body = in.find("contour");
   if (contour != nullptr && in.understood("contour") && out.motion.lead &&

@@ -8,6 +8,7 @@
 
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/part_request.hpp"
+#include "api/endpoints/section_bevel_table.hpp"
 #include "api/wire/reader.hpp"
 #include "core/groove/mill_path.hpp"
 #include "core/motion/schedule/spec.hpp"
@@ -18,7 +19,7 @@ namespace tubecut::api {
 /// Source of a schedule's cut: computed here (a bevel table, a mill path, all cuts of a part), or
 /// given.
 using CutSource = std::variant<BevelTableRequest, groove::MillPathSpec, motion::CutPath,
-                               motion::AxisColumns, PartRequest>;
+                               motion::AxisColumns, PartRequest, SectionCutRequest>;
 
 struct ScheduleRequest {
   CutSource cut;

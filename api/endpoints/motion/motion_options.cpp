@@ -6,12 +6,16 @@
 #include "api/catalog/process.hpp"
 #include "api/wire/motion_names.hpp"
 #include "api/wire/tables.hpp"
+#include "core/motion/path/upright.hpp"
 
 namespace tubecut::api {
 namespace {
 
 using motion::Scrap;
 using motion::Surface;
+
+constexpr std::initializer_list<const char*> kSectionFields{"start_girth_mm", "lean_deg"};
+constexpr Range kAnyGirth{.min = -1e6, .max = 1e6};  // mm
 
 motion::Speed decode_speed(Reader& in) {
   if (in.exactly_one({"mm_min", "table"}) != 1) return in.number("mm_min", kTorchSpeed) / 60.0;
@@ -40,10 +44,19 @@ motion::Lead decode_lead(Reader& in) {
   return out;
 }
 
-motion::Sector decode_sector(Reader& in) {
+/// Of a section: the radius of a circle as long as its outside.
+using EqualRadius = std::optional<double>;
+
+/// Decodes a place around the tube: an angle, or the girth of a section.
+Angle decode_around(Reader& in, const std::string& of, EqualRadius radius) {
+  if (!radius) return in.angle(of + "phi_deg", kAnyAngleDeg);
+  return Angle::rad(in.number(of + "girth_mm", kAnyGirth) / *radius);
+}
+
+motion::Sector decode_sector(Reader& in, EqualRadius radius) {
   motion::Sector out;
-  out.from = in.angle("from_phi_deg", kAnyAngleDeg);
-  out.to = in.angle("to_phi_deg", kAnyAngleDeg);
+  out.from = decode_around(in, "from_", radius);
+  out.to = decode_around(in, "to_", radius);
   out.back_up = in.number("back_up_mm", {.min = 0.0, .max = 1'000.0}, 5.0);
   return out;
 }
@@ -59,18 +72,25 @@ motion::Expert decode_expert(Reader& in) {
 }
 
 /// Decodes the fields that only a contour has: start, direction, leads, a sector.
-void decode_course(Reader& in, bool hole, motion::Motion& out) {
-  if (in.find("start_phi_deg") != nullptr && *in.find("start_phi_deg") == Json{"auto"}) {
-    in.note("start_phi_deg");
-    in.put("start_phi_deg", Json{"auto"});
+void decode_course(Reader& in, bool hole, EqualRadius radius, bool certain, motion::Motion& out) {
+  const char* const start = radius ? "start_girth_mm" : "start_phi_deg";
+  if (in.find(start) != nullptr && *in.find(start) == Json{"auto"}) {
+    in.note(start);
+    in.put(start, Json{"auto"});
     out.start.at = motion::Start::At::automatic;
-  } else if (in.has("start_phi_deg") || !hole) {  // a hole need not have a point at phi 0
-    out.start = {motion::Start::At::phi, in.angle("start_phi_deg", kAnyAngleDeg, Angle{})};
+  } else if (radius) {
+    out.start = {motion::Start::At::phi, Angle::rad(in.number(start, kAnyGirth, 0.0) / *radius)};
+  } else if (in.has(start) || !hole) {  // a hole need not have a point at phi 0
+    out.start = {motion::Start::At::phi, in.angle(start, kAnyAngleDeg, Angle{})};
   }
-  in.note("start_phi_deg");
+  in.note(start);
   out.direction = in.choice("direction", motion::Direction::ccw);
   if (!in.is_null("lead")) out.lead = in.optional_object("lead", decode_lead);
-  if (!in.is_null("sector")) out.sector = in.optional_object("sector", decode_sector);
+  if (!in.is_null("sector"))
+    out.sector = in.optional_object("sector", [&](Reader& s) {
+      if (!certain) s.silence();  // its members follow from the target
+      return decode_sector(s, radius);
+    });
 }
 
 void decode_tolerances(Reader& in, motion::Motion& out) {
@@ -114,19 +134,43 @@ std::optional<double> decode_mark_options(Reader& in) {
   return speed ? std::optional(*speed / 60.0) : std::nullopt;
 }
 
+/// Reads the fields of a round target's motion that a section does not have: its speed is that on
+/// the outside, and its places are girths.
+void refuse_round_motion(Reader& in) {
+  refuse_fields(in, {"start_phi_deg"}, "a target that is not round starts at start_girth_mm");
+  if (in.choice("speed_on", Surface::outer) != Surface::inner) return;
+  in.issue({.code = ErrorCode::unsupported_combination,
+            .pointer = "speed_on",
+            .got = Json{"inner"},
+            .limit = Json{"outer"},
+            .hint = "the speed on a bore requires a round target"},
+           in.find("speed_on"));
+}
+
 }  // namespace
 
-motion::Motion decode_motion(Reader& in, const CutSource& cut) {
+motion::Motion decode_motion(Reader& in, const CutSource& cut, bool certain) {
   motion::Motion out;
   const auto* contour = std::get_if<motion::CutPath>(&cut);
+  const auto* section = std::get_if<SectionCutRequest>(&cut);
   const bool has_contour = contour != nullptr || std::holds_alternative<BevelTableRequest>(cut);
   out.speed = in.object("speed", decode_speed);
   if (has_contour) out.speed_on = in.choice("speed_on", Surface::outer);
+  if (section != nullptr) refuse_round_motion(in);
+  if (!certain)
+    for (const auto* const name : kSectionFields) in.note(name);
+  else if (has_contour)
+    refuse_fields(in, kSectionFields, "belongs to a target that is not round");
   decode_tolerances(in, out);
+  if (section != nullptr)
+    out.lean = in.angle("lean_deg", {.min = 0.05, .max = 5.0}, Angle::deg(1.0));
   out.compare = in.flag("compare", false);
   const bool closed = contour == nullptr || contour->closed;
   if (has_contour)
-    decode_course(in, !closed || (contour != nullptr && contour->scrap == Scrap::inside), out);
+    decode_course(in, !closed || (contour != nullptr && contour->scrap == Scrap::inside), {},
+                  certain, out);
+  if (section != nullptr)
+    decode_course(in, false, motion::equal_radius(section->section.section), certain, out);
   out.expert = in.defaulted_object("expert", decode_expert);
   return out;
 }

@@ -8,8 +8,9 @@ namespace tubecut::api {
 
 inline constexpr Range kBeam{.min = 0.0, .max = 1e5};  // mm of metal
 
-/// How a cut is to be run: a request's `motion`.
-[[nodiscard]] motion::Motion decode_motion(Reader& in, const CutSource& cut);
+/// How a cut is to be run: a request's `motion`. `certain`: the request states a cut whose target
+/// is understood; otherwise fields of any kind of target are accepted, because the cut is refused.
+[[nodiscard]] motion::Motion decode_motion(Reader& in, const CutSource& cut, bool certain);
 
 /// The same for a whole part, with the moves between its cuts.
 struct PartMotion {

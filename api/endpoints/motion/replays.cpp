@@ -155,7 +155,10 @@ struct Replays {
     if (spec.job.machine.b_positive == motion::BPositive::outer_edge_to_waste)
       for (auto& v : b) v = -v;
     w.object("path", [&](Writer& o) {
-      o.degrees_column("phi_deg", out.replay.phi);
+      const bool section = !out.replay.x.empty();
+      o.degrees_column(section ? "normal_deg" : "phi_deg", out.replay.phi);
+      if (section) o.column("x_mm", out.replay.x);
+      if (section) o.column("y_mm", out.replay.y);
       o.column("z_mm", out.replay.z);
       o.degrees_column("b_deg", b);
     });

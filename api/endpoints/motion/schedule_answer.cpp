@@ -32,6 +32,7 @@ void encode_report(const motion::Report& r, const std::vector<AxisSums>& sums, W
     o.degrees("dev_b_deg", r.deviation_b);
     o.field("sag_mm", r.sag_tip);
     o.degrees("sag_b_deg", r.sag_b);
+    if (r.lean) o.degrees("lean_deg", *r.lean);
     if (r.edges) {
       o.field("dev_outer_edge_mm", r.edges->outer);
       o.field("dev_inner_edge_mm", r.edges->inner);
@@ -47,12 +48,13 @@ void encode_report(const motion::Report& r, const std::vector<AxisSums>& sums, W
       for (const auto& axis : sums) p.field(axis.name, axis.closure);
     });
     encode_uses(r.max_use, o);
-    o.array("slow", r.slow, [](Writer& each, const motion::SlowZone& zone) {
+    const bool section = r.lean.has_value();
+    o.array("slow", r.slow, [&](Writer& each, const motion::SlowZone& zone) {
       each.object([&](Writer& z) {
         z.field("from", zone.from);
         z.field("to", zone.to);
-        z.degrees("from_phi_deg", zone.phi_from);
-        z.degrees("to_phi_deg", zone.phi_to);
+        z.degrees(section ? "from_normal_deg" : "from_phi_deg", zone.phi_from);
+        z.degrees(section ? "to_normal_deg" : "to_phi_deg", zone.phi_to);
         z.field("min_mm_min", zone.least_speed * 60.0);
         z.field("axis", zone.axis);
       });
