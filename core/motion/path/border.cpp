@@ -103,12 +103,23 @@ Spot mixed(double p, const Spot& a, double q, const Spot& b) {
 
 double tip_length(const Spot& a) { return elementary::hypot(a[0], a[1]); }
 
+/// Returns true where a flat of the section meets a corner. The cut's curvature jumps there, so a
+/// tangent of both sides would bend the curve off the long chord of the flat.
+bool is_at_seam(const section::Section& section, double s) {
+  constexpr double kSame = 1e-6;  // mm
+  const auto outside = section.outer();
+  return std::ranges::any_of(outside.seams(), [&](double seam) {
+    return std::abs(std::remainder(s - seam, outside.girth())) < kSame;
+  });
+}
+
 /// Chords of a closed track, segment by segment, and the tangents per mm of the tip at their ends.
 class BorderCurve {
  public:
   explicit BorderCurve(const Track& track) : track_(track) {
     for (const CutPoint& p : track.points) {
       spots_.push_back({track.radius * p.phi, p.z, p.b});
+      seam_.push_back(track.section && is_at_seam(*track.section, spots_.back()[0]));
     }
   }
 
@@ -148,7 +159,7 @@ class BorderCurve {
     const std::size_t before = k == 0 ? segments() - 1 : k - 1;
     const std::size_t after = k == segments() ? 0 : k;
     const double a = length(before), b = length(after);
-    if (a == 0.0 || b == 0.0 || track_.points[k].corner) return slope(own);
+    if (a == 0.0 || b == 0.0 || track_.points[k].corner || seam_[k]) return slope(own);
     const Spot m = slope(before), n = slope(after);
     if (m[0] * n[0] + m[1] * n[1] < kCorner) return slope(own);
     return mixed(b / (a + b), m, a / (a + b), n);
@@ -156,6 +167,7 @@ class BorderCurve {
 
   const Track& track_;
   std::vector<Spot> spots_;
+  std::vector<bool> seam_;
 };
 
 /// A closed track with inserted points of the smooth curve through its own points, and the largest
