@@ -114,7 +114,7 @@ struct BevelTables {
     named.partners = partner_names(caption.request, cutter_ids(spec.source), spec.partners.size());
     if (!spec.section) return Print(spec, out, named);
     if constexpr (std::is_null_pointer_v<decltype(PrintSection)>) {
-      throw no_format_of_section("csv, svg, pdf, dxf, stl and glb");
+      throw no_format_of_section("csv, svg, pdf, dxf, stl, glb and gcode");
     } else {
       refuse_section_view(caption);
       return PrintSection({spec.section->section, spec, *out.of_section}, named);
@@ -138,7 +138,13 @@ struct BevelTables {
         {"stl", "model/stl", &print<bevel_table_stl, section_bevel_stl>, {"after", "before"}},
         {"step", "model/step", &print<bevel_table_step>, {"smooth", "straight"}},
         {"nc1", "application/x-dstv", &print<bevel_table_dstv>, {}, {}, false, true},
-        {"gcode", "text/x-gcode", &print<bevel_table_gcode>, {}, gcode_options(), true, true}};
+        {"gcode",
+         "text/x-gcode",
+         &print<bevel_table_gcode, section_bevel_gcode>,
+         {},
+         gcode_options(),
+         true,
+         true}};
     return kFormats;
   }
 };

@@ -12,6 +12,7 @@
 #include "api/formats/drawing/svg_sheets.hpp"
 #include "api/formats/drawing/wrap_template.hpp"
 #include "api/formats/dxf/dxf.hpp"
+#include "api/formats/gcode/gcode.hpp"
 #include "api/formats/mesh/cut_solid.hpp"
 #include "api/wire/joint_names.hpp"
 #include "api/wire/section_tables.hpp"
@@ -180,6 +181,10 @@ void refuse_section_view(const Caption& caption) {
   if (caption.view == "section")
     throw UnfitOption{.name = "view",
                       .hint = "section requires a round target; use chart or template"};
+}
+
+std::string section_bevel_gcode(const SectionCut& cut, const Caption& caption) {
+  return print_gcode(torch_job(cut.section, cut.spec, cut.table, caption), caption);
 }
 
 UnfitOption no_format_of_section(std::string_view offered) {

@@ -46,6 +46,9 @@ struct SectionCut {
 [[nodiscard]] std::string section_bevel_stl(const SectionCut& cut, const Caption& caption);
 [[nodiscard]] std::string section_bevel_gltf(const SectionCut& cut, const Caption& caption);
 
+/// The torch's program around it (gcode/gcode.hpp).
+[[nodiscard]] std::string section_bevel_gcode(const SectionCut& cut, const Caption& caption);
+
 /// Throws UnfitOption if the view is `section`, because that shows a round wall.
 void refuse_section_view(const Caption& caption);
 

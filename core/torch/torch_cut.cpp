@@ -7,6 +7,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/table/land_pass.hpp"
+#include "core/motion/path/upright.hpp"
 #include "core/part/cut_edges.hpp"
 #include "core/part/place.hpp"
 #include "core/torch/centre_lead.hpp"
@@ -155,6 +156,19 @@ std::vector<bool> corner_rows(const bevel::Table& table) {
 
 TorchCut torch_cut(const bevel::TableSpec& spec, const bevel::Table& table) {
   return end_cut(spec, table, motion::Scrap::minus_z);
+}
+
+TorchCut torch_cut(const section::Section& section, const bevel::TableSpec& spec,
+                   const bevel::SectionTable& table) {
+  TorchCut out{.path = motion::around(section),
+               .kerf = spec.kerf,
+               .land = table.z_face.empty() ? 0.0 : spec.root_face};
+  for (const auto& at : table.at) out.path.phi.push_back(at.s / out.path.outer_radius);
+  out.path.z = table.torch_outer;
+  out.path.b = table.b;
+  out.path.corner = table.corner;
+  begin_at_seam(out.path);
+  return out;
 }
 
 std::vector<TorchCut> torch_cuts(const part::PartSpec& spec, const part::Part& part) {

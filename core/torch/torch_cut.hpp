@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/bevel/section/section_table.hpp"
 #include "core/bevel/table/table.hpp"
 #include "core/motion/path/border.hpp"
 #include "core/motion/path/lead.hpp"
@@ -38,6 +39,10 @@ struct TorchCut {
 
 /// Returns the path along which a table's end is cut.
 [[nodiscard]] TorchCut torch_cut(const bevel::TableSpec& spec, const bevel::Table& table);
+/// Returns the same of a target that is not round: its phi is the girth over
+/// `motion::equal_radius`.
+[[nodiscard]] TorchCut torch_cut(const section::Section& section, const bevel::TableSpec& spec,
+                                 const bevel::SectionTable& table);
 /// Returns the cuts of a part in the order of its sequence.
 [[nodiscard]] std::vector<TorchCut> torch_cuts(const part::PartSpec& spec, const part::Part& part);
 

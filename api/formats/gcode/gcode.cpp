@@ -4,10 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "api/catalog/machines.hpp"
 #include "api/catalog/posts.hpp"
 #include "api/formats/drawing/part_marks.hpp"
 #include "api/formats/drawing/point_pairs.hpp"
 #include "api/formats/gcode/gcode_header.hpp"
+#include "api/formats/gcode/section_moves.hpp"
 #include "api/formats/gcode/torch_joints.hpp"
 #include "api/formats/gcode/torch_moves.hpp"
 #include "api/formats/gcode/torch_process.hpp"
@@ -47,17 +49,19 @@ torch::Setup setup_of(const FormatOptions& o) {
 }
 
 /// Adds positions if a move of all axes would sag.
-void refine(const motion::CutWithLead& way, const TorchReach& reach, const std::stop_token& stop,
-            Straightness& told, TorchCutPlaces& out) {
+void refine(const motion::CutWithLead& way, const TorchReach& reach,
+            const std::optional<SectionTurn>& turn, const std::stop_token& stop, Straightness& told,
+            TorchCutPlaces& out) {
   const auto& points = way.points;
   out.places = {place(points.front())};
   for (std::size_t i = 1; i < points.size(); ++i) {
     ask(stop);
     auto at = place(points[i - 1]);
-    const auto moves = straight_moves(reach, at, place(points[i]), kSag);
+    const auto moves = turn ? turn->moves(reach, at, place(points[i]), kSag, told.sag, stop)
+                            : straight_moves(reach, at, place(points[i]), kSag);
     told.inserted += moves.size() - 1;
     for (const auto& next : moves) {
-      told.sag = std::max(told.sag, sag(reach, at, next));
+      if (!turn) told.sag = std::max(told.sag, sag(reach, at, next));
       tubecut::make_room(out.places, stop);
       out.places.push_back(at = next);
     }
@@ -92,6 +96,7 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
       .outer_radius = job.outer_radius,
       .inner_radius = job.outer_radius - job.wall,
       .pivot = o.pivot_length ? *o.pivot_length + o.cut_height.value_or(0.0) : 0.0};
+  const auto turn = job.section ? std::optional<SectionTurn>(*job.section) : std::nullopt;
   std::vector<TorchCutPlaces> out;
   for (const auto& cut : job.cuts) {
     const auto laid =
@@ -110,7 +115,7 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
                      .kerf = cut.kerf,
                      .radius = way.radius,
                      .mark = cut.mark});
-      refine(way.points, reach, caption.stop, moves, out.back());
+      refine(way.points, reach, turn, caption.stop, moves, out.back());
     }
   }
   return out;
@@ -263,6 +268,15 @@ void tell_lands(TorchJob& job, const FormatOptions& o) {
         "beside the metal");
 }
 
+/// The machine whose table is taken must move its torch across the tube.
+void refuse_without_across(const std::string& name) {
+  for (const auto& one : *machines())
+    if (one.machine.name == name && !motion::crosses(one.machine))
+      throw UnfitOption{"machine", "the target is not round, and machine " + name +
+                                       " has no axis across the tube: take a machine of type "
+                                       "tube_table"};
+}
+
 }  // namespace
 
 void refuse_land(const std::string& of, double land, const FormatOptions& o) {
@@ -296,6 +310,30 @@ TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table,
           .seen_from = "the cut"};
 }
 
+TorchJob torch_job(const section::Section& section, const bevel::TableSpec& spec,
+                   const bevel::SectionTable& table, const Caption& caption) {
+  const auto& o = caption.options;
+  const auto refuse = [](bool is, std::string_view option) {
+    if (is)
+      throw UnfitOption{option,
+                        "a target that is not round is cut in one pass, without tabs, from "
+                        "a flat or its first point"};
+  };
+  refuse(o.passes == Passes::both, "passes");
+  refuse(o.tabs.has_value(), "tabs");
+  refuse(o.start.has_value(), "start_deg");
+  if (o.process != nullptr) refuse_without_across(o.process->machine);
+  auto cut = torch::torch_cut(section, spec, table);
+  return {.outer_radius = cut.path.outer_radius,
+          .section = section,
+          .wall = cut.path.wall,
+          .cuts = {std::move(cut)},
+          .zero = "the work point, z 0",
+          .onward = "from the cut into the kept tube",
+          .line = "the middle of face 1, girth 0,",
+          .seen_from = "the cut"};
+}
+
 TorchJob torch_job(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
   TorchJob out{.outer_radius = spec.target.outer_radius,
                .wall = spec.target.wall,
@@ -320,9 +358,11 @@ std::string print_gcode(TorchJob job, Caption caption) {
   tell_marks(job, caption.options);
   const auto& post = post_of(caption.options);
   Straightness moves;
+  if (post.is_point_pairs() && job.section)
+    throw UnfitOption{"post", "point pairs are of round targets: take a post with axes"};
   if (post.is_point_pairs())
     return print_point_pairs(job, ways_of(job, caption, moves), moves, caption);
-  const TorchJoints joints(job.outer_radius, leaning(job), caption.options);
+  const TorchJoints joints(job.outer_radius, job.section, leaning(job), caption.options);
   const auto ways = ways_of(job, caption, moves);
   std::string out =
       post_lines(post.begin) + program_header(job, ways, joints, moves, caption) + modes(caption);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,7 +12,8 @@ namespace tubecut::api {
 
 /// The cuts of a program, in order.
 struct TorchJob {
-  double outer_radius = 0.0;
+  double outer_radius = 0.0;                     // around a section that of a circle as long
+  std::optional<section::Section> section = {};  // of a target that is not round
   double wall = 0.0;
   std::vector<torch::TorchCut> cuts = {};
   std::vector<std::string> lengths = {}, by_hand = {};  // lines of the header
@@ -24,6 +26,10 @@ struct TorchJob {
 /// Errors  throws UnfitOption: passes, if a land has no separate pass.
 [[nodiscard]] TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table,
                                  const Caption& caption);
+/// The end of a target that is not round: one pass, without tabs.
+/// Errors  throws UnfitOption: passes, tabs, start_deg, machine (one without an axis across).
+[[nodiscard]] TorchJob torch_job(const section::Section& section, const bevel::TableSpec& spec,
+                                 const bevel::SectionTable& table, const Caption& caption);
 /// A part in the order of its sequence; marks are lines of the header.
 [[nodiscard]] TorchJob torch_job(const part::PartSpec& spec, const part::Part& part,
                                  const Caption& caption);
@@ -44,7 +50,8 @@ void refuse_land(const std::string& of, double land, const FormatOptions& option
 /// overcut, lead-out; torch out, retract. With a pivot length the linear axes are the pivot's, and
 /// the one square to the tube moves too; without, the control must know the tip and move its
 /// height. The torch is lit only by the option `torch`. If a hole's torch tilts across, C is that
-/// tilt and, with a pivot length, Y is the pivot's position across.
+/// tilt and, with a pivot length, Y is the pivot's position across. Around a section A turns the
+/// tube so that the wall's normal points up, and Y and Z follow the wall.
 ///
 /// Errors    throws UnfitOption: lead_mm, start_deg, if a cut has no room or point for them; post,
 ///           pivot_length_mm, axial, if the post lacks an axis; material, if the metal is thicker

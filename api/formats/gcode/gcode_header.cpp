@@ -89,6 +89,14 @@ Extent extent(const TorchJob& job, const std::vector<TorchCutPlaces>& cuts,
 
 using Lines = std::vector<std::string>;
 
+std::string tube_line(const TorchJob& job, const Post& post) {
+  const auto& s = job.section;
+  if (!s)
+    return "tube " + post.length_number(2.0 * job.outer_radius) + " x " + post.length(job.wall);
+  return "tube " + post.length_number(s->height) + " x " + post.length_number(s->width) + " x " +
+         post.length(s->wall) + ", corners " + post.length(s->corner) + " outside";
+}
+
 /// "units mm, deg, mm/min".
 std::string units_line(const Post& post, const PostAxis& turn) {
   const std::string units(name_of(post.units));
@@ -120,7 +128,13 @@ void add_axes(const TorchJob& job, const TorchJoints& joints, const FormatOption
                        : std::string(", towards growing ") + letter(turn)) +
                   ", tangents of " + letter(joints.swing()) + " and " + letter(joints.tilt()) +
                   " are each over the way outwards");
-  const auto carried = x + (joints.tilts() ? ", " + letter(joints.across()) : "") + " and " +
+  if (joints.follows())
+    out.push_back(letter(turn) + " keeps the normal of the wall up, " + letter(joints.across()) +
+                  " and " + letter(joints.out()) + " follow the wall, " + joints.across().zero() +
+                  ": over the axis of the tube, face 2 lies to " +
+                  (joints.phi_to_plus() ? "+" : "-") + letter(joints.across()));
+  const bool crosses = joints.tilts() || joints.follows();
+  const auto carried = x + (crosses ? ", " + letter(joints.across()) : "") + " and " +
                        letter(joints.out()) + " carry the ";
   if (o.pivot_length)
     out.push_back(carried +
@@ -148,7 +162,8 @@ void add_starts(const TorchJoints& joints, const FormatOptions& o, Lines& out) {
                   ", overcut " + post.length(o.overcut.value_or(motion::Lead{}.overcut)) +
                   ", clear of the part");
     if (!o.start)
-      out.push_back("each cut starts at its least bevel that is " +
+      out.push_back((joints.follows() ? "the cut starts on a flat at its least bevel that is "
+                                      : "each cut starts at its least bevel that is ") +
                     post.length(motion::kFromJunction) + " and more off its junctions and off " +
                     joints.turn().zero());
   }
@@ -207,7 +222,7 @@ std::string program_header(const TorchJob& job, const std::vector<TorchCutPlaces
   const auto& post = post_of(o);
   const auto found = extent(job, cuts, joints, o.cut_height.value_or(0.0));
   const double pierces = o.pierce_delay.value_or(0.0) * static_cast<double>(found.pierces);
-  Lines lines{"tube " + post.length_number(2.0 * job.outer_radius) + " x " + post.length(job.wall)};
+  Lines lines{tube_line(job, post)};
   lines.insert(lines.end(), job.lengths.begin(), job.lengths.end());
   lines.push_back(units_line(post, joints.turn()));
   add_axes(job, joints, o, lines);
@@ -247,7 +262,7 @@ std::string cut_title(const TorchCutPlaces& cut, const TorchJoints& joints,
   if (!cut.name.empty()) out += post.comment("cut: " + cut.name);
   if (o.lead.value_or(0.0) > 0.0 || o.start)
     out += post.comment(
-        "starts at " + joints.turn().shown(cut.start().phi * kDegPerRad) + ", " +
+        "starts at " + joints.turn().shown(joints.turn_at(cut.start())) + ", " +
         (joints.has_swing() ? joints.swing().shown(cut.start().b * kDegPerRad) + ", " : "") +
         post.length(cut.start().z) + " from " + joints.along().zero());
   if (cut.radius < o.lead.value_or(0.0))

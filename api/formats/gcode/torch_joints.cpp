@@ -23,7 +23,8 @@ PostAxis needed(const Post& post, PostRole role, bool is, std::string_view optio
 
 }  // namespace
 
-TorchJoints::TorchJoints(double outer_radius, Leaning leaning, const FormatOptions& options)
+TorchJoints::TorchJoints(double outer_radius, const std::optional<section::Section>& section,
+                         Leaning leaning, const FormatOptions& options)
     : radius_(outer_radius),
       pivot_(options.pivot_length),
       clearance_(options.clearance.value_or(torch::kClearance)),
@@ -42,30 +43,51 @@ TorchJoints::TorchJoints(double outer_radius, Leaning leaning, const FormatOptio
   out_ = get(PostRole::out, pivot_ || options.axial_z, pivot_ ? "pivot_length_mm" : "axial",
              "which lifts the torch");
   tilt_ = get(PostRole::tilt, tilts_, "post", "that tilts a hole's torch across");
-  across_ = get(PostRole::across, tilts_ && pivot_, "post",
-                "by which the pivot of a torch that leans across goes");
+  across_ = get(PostRole::across, (tilts_ && pivot_) || section, "post",
+                section ? "by which the torch follows the corners of a tube that is not round"
+                        : "by which the pivot of a torch that leans across goes");
+  if (section) {
+    section_.emplace(*section);
+    if (!pivot_)
+      throw UnfitOption{"pivot_length_mm",
+                        "the height of the wall under the torch changes, so the program moves it: "
+                        "give the length, 0 if the axes carry the tip"};
+    if (turn_.unit != TurnUnit::deg)
+      throw UnfitOption{"post", "post " + post.name +
+                                    " counts the turn of a round tube along its circumference; "
+                                    "take a post whose turn is in deg"};
+  }
   if (options.axial_z) std::swap(along_.letter, out_.letter);
   turn_ = turn_.on_tube(outer_radius);
 }
 
 std::string TorchJoints::words(const TorchPlace& at, double off) const {
   auto out = along_.word(along_at(at, off));
-  if (pivot_ && tilts_) out += " " + across_.word(across_at(arm(at, off)));
+  if (moves_across()) out += " " + across_.word(across_at(at, arm(at, off)));
   if (pivot_) out += " " + height(at, off);
   return out + angles(at);
 }
 
 std::string TorchJoints::level_words(const TorchPlace& at, double off) const {
   auto out = along_.word(along_at(at, off));
-  if (pivot_ && tilts_) out += " " + across_.word(across_at(arm(at, off)));
+  if (moves_across()) out += " " + across_.word(across_at(at, arm(at, off)));
   return out + angles(at);
 }
 
 std::string TorchJoints::height(const TorchPlace& at, double off) const {
-  return out_.word(radius_ + arm(at, off).out);
+  return out_.word(under(at).out + arm(at, off).out);
 }
 
-std::string TorchJoints::clear_height() const { return out_.word(radius_ + *pivot_ + clearance_); }
+std::string TorchJoints::clear_height() const {
+  const double highest = section_ ? section_->section().reach() : radius_;
+  return out_.word(highest + *pivot_ + clearance_);
+}
+
+TorchJoints::Under TorchJoints::under(const TorchPlace& at) const {
+  if (!section_) return {radius_, 0.0, at.phi * kDegPerRad};
+  const auto up = section_->at(at.phi);
+  return {up.out, up.across, up.angle * kDegPerRad};
+}
 
 double TorchJoints::along_at(const TorchPlace& at, double off) const {
   return at.z + arm(at, off).along;
@@ -83,6 +105,9 @@ double TorchJoints::rounding(double wall) const {
   const double arm = pivot_.value_or(0.0) + wall;
   double out = along_.rounding() + radius_ * turn_.rounding() * kRadPerDeg;
   if (pivot_) out += out_.rounding();
+  if (section_)
+    out += across_.rounding() +
+           (section_->section().reach() - radius_) * turn_.rounding() * kRadPerDeg;
   if (has_swing_) out += arm * swing_.rounding() * kRadPerDeg;
   if (tilts_) out += arm * tilt_.rounding() * kRadPerDeg + (pivot_ ? across_.rounding() : 0.0);
   constexpr double kLeaning = 2.0;  // of an edge that the torch meets under 60 deg
@@ -92,9 +117,10 @@ double TorchJoints::rounding(double wall) const {
 std::vector<TorchJoints::Shown> TorchJoints::shown(const TorchPlace& at, double off) const {
   const auto reach = arm(at, off);
   std::vector<Shown> out{{&along_, false, at.z + reach.along}};
-  if (pivot_ && tilts_) out.push_back({&across_, false, across_at(reach)});
-  if (pivot_) out.push_back({&out_, false, radius_ + reach.out});
-  out.push_back({&turn_, true, at.phi * kDegPerRad});
+  const auto wall = under(at);
+  if (moves_across()) out.push_back({&across_, false, across_at(at, reach)});
+  if (pivot_) out.push_back({&out_, false, wall.out + reach.out});
+  out.push_back({&turn_, true, wall.turn});
   if (has_swing_) out.push_back({&swing_, true, at.b * kDegPerRad});
   if (tilts_) out.push_back({&tilt_, true, at.a * kDegPerRad});
   return out;
@@ -120,7 +146,7 @@ TorchJoints::Arm TorchJoints::arm(const TorchPlace& at, double off) const {
 }
 
 std::string TorchJoints::angles(const TorchPlace& at) const {
-  auto out = " " + turn_.word(at.phi * kDegPerRad);
+  auto out = " " + turn_.word(under(at).turn);
   if (has_swing_) out += " " + swing_.word(at.b * kDegPerRad);
   if (tilts_) out += " " + tilt_.word(at.a * kDegPerRad);
   return out;
@@ -128,9 +154,10 @@ std::string TorchJoints::angles(const TorchPlace& at) const {
 
 std::vector<double> TorchJoints::all(const TorchPlace& at, double off) const {
   const auto reach = arm(at, off);
-  return {along_.scale * (at.z + reach.along), out_.scale * reach.out,
-          across_.scale * reach.round,         turn_.scale * at.phi * kDegPerRad,
-          swing_.scale * at.b * kDegPerRad,    tilt_.scale * at.a * kDegPerRad};
+  const auto wall = section_ ? under(at) : Under{0.0, 0.0, at.phi * kDegPerRad};
+  return {along_.scale * (at.z + reach.along),        out_.scale * (wall.out + reach.out),
+          across_.scale * (wall.round + reach.round), turn_.scale * wall.turn,
+          swing_.scale * at.b * kDegPerRad,           tilt_.scale * at.a * kDegPerRad};
 }
 
 }  // namespace tubecut::api

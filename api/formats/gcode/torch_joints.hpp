@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "api/catalog/post.hpp"
+#include "api/formats/gcode/section_moves.hpp"
 #include "api/formats/gcode/torch_moves.hpp"
 #include "api/wire/format.hpp"
 
@@ -11,7 +12,8 @@ namespace tubecut::api {
 
 /// The axes of a program as its post has them, at places of the torch. With a pivot length the
 /// linear ones are the pivot's, and the one off the tube moves too; without, the control must know
-/// the tip and move its height.
+/// the tip and move its height. Around a section the tube turns so that the wall's normal at the
+/// torch points up; the axes off the tube and across it follow the wall.
 ///
 /// Errors  the constructor throws UnfitOption if the post lacks a needed axis.
 class TorchJoints {
@@ -20,7 +22,9 @@ class TorchJoints {
   struct Leaning {
     bool along = false, across = false;
   };
-  TorchJoints(double outer_radius, Leaning leaning, const FormatOptions& options);
+  /// `section`: of a target that is not round; `outer_radius` is then that of a circle as long.
+  TorchJoints(double outer_radius, const std::optional<section::Section>& section, Leaning leaning,
+              const FormatOptions& options);
 
   /// Of the tip this far off the wall along its own axis.
   [[nodiscard]] std::string words(const TorchPlace& at, double off) const;
@@ -29,6 +33,8 @@ class TorchJoints {
   [[nodiscard]] std::string height(const TorchPlace& at, double off) const;
   /// Returns the height at which the tip clears the tube in any swing; needs a pivot.
   [[nodiscard]] std::string clear_height() const;
+  /// Returns the turn of the tube, deg.
+  [[nodiscard]] double turn_at(const TorchPlace& at) const { return under(at).turn; }
   /// Returns the position of the axis along the tube.
   [[nodiscard]] double along_at(const TorchPlace& at, double off) const;
   /// Returns the distance of all axes as written, with one deg as one unit of length, as a control
@@ -50,6 +56,8 @@ class TorchJoints {
   [[nodiscard]] const PostAxis& swing() const { return swing_; }
   [[nodiscard]] const PostAxis& tilt() const { return tilt_; }
   [[nodiscard]] const PostAxis& across() const { return across_; }
+  /// The axis across follows the wall of a section.
+  [[nodiscard]] bool follows() const { return section_.has_value(); }
   /// Growing phi runs to plus of the axis across.
   [[nodiscard]] bool phi_to_plus() const { return phi_to_plus_ != across_.reversed; }
   [[nodiscard]] bool tilts() const { return tilts_; }
@@ -62,9 +70,16 @@ class TorchJoints {
   struct Arm {
     double out, along, round;
   };
+  /// Where the wall is under the torch: over the axis, across it, and the turn in deg.
+  struct Under {
+    double out, round, turn;
+  };
+  [[nodiscard]] Under under(const TorchPlace& at) const;
+  [[nodiscard]] bool moves_across() const { return pivot_ && (tilts_ || section_); }
   [[nodiscard]] Arm arm(const TorchPlace& at, double off) const;
-  [[nodiscard]] double across_at(const Arm& arm) const {
-    return phi_to_plus_ ? arm.round : -arm.round;
+  [[nodiscard]] double across_at(const TorchPlace& at, const Arm& arm) const {
+    const double round = under(at).round + arm.round;
+    return phi_to_plus_ ? round : -round;
   }
   [[nodiscard]] std::string angles(const TorchPlace& at) const;
   [[nodiscard]] std::vector<double> all(const TorchPlace& at, double off) const;
@@ -76,7 +91,8 @@ class TorchJoints {
   };
   [[nodiscard]] std::vector<Shown> shown(const TorchPlace& at, double off) const;
 
-  double radius_;
+  double radius_;  // of the round target
+  std::optional<SectionTurn> section_ = {};
   std::optional<double> pivot_;
   double clearance_;
   bool tilts_, has_swing_, phi_to_plus_;

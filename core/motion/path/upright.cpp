@@ -12,6 +12,17 @@ constexpr double kStepAngle = 1.5 * kRadPerDeg;  // between points on an arc
 constexpr double kLongestStep = 0.5;             // mm; wide arcs need it for their chords
 constexpr double kStepsOfBlend = 4.0;            // at least so many points to a half width
 
+/// Returns these girths in order, those that are strictly between two and not as good as one.
+std::vector<double> apart(std::vector<double> all, double from, double to) {
+  constexpr double kSame = 1e-3;  // mm; nearer points are one
+  std::ranges::sort(all);
+  std::vector<double> out;
+  for (const double s : all)
+    if (s > from + kSame && s < to - kSame && (out.empty() || s > out.back() + kSame))
+      out.push_back(s);
+  return out;
+}
+
 /// The nearest place of the rectangle that the corners' centres span.
 Eigen::Vector2d in_middle(const section::Section& section, const Eigen::Vector2d& point) {
   const Eigen::Vector2d half(0.5 * section.height - section.corner,
@@ -64,6 +75,16 @@ double Upright::angle(double s) const {
   return out;
 }
 
+std::vector<double> Upright::breaks(double from, double to) const {
+  const double girth = curve_.girth();
+  std::vector<double> out;
+  for (const Seam& seam : seams_)
+    for (const double at : {seam.s - half_width_, seam.s, seam.s + half_width_})
+      for (double s = at + girth * std::ceil((from - at) / girth); s < to; s += girth)
+        out.push_back(s);
+  return apart(std::move(out), from, to);
+}
+
 std::vector<double> Upright::places(double from, double to) const {
   const double girth = curve_.girth();
   std::vector<double> out;
@@ -83,13 +104,7 @@ std::vector<double> Upright::places(double from, double to) const {
       if (end > from && start < to) add(start, end);
     }
   }
-  constexpr double kSame = 1e-3;  // mm; nearer points are one
-  std::ranges::sort(out);
-  std::vector<double> kept;
-  for (const double s : out)
-    if (s > from + kSame && s < to - kSame && (kept.empty() || s > kept.back() + kSame))
-      kept.push_back(s);
-  return kept;
+  return apart(std::move(out), from, to);
 }
 
 double beyond_outside(const section::Section& section, Eigen::Vector2d point) {

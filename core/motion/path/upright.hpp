@@ -41,6 +41,9 @@ class Upright {
   [[nodiscard]] double angle(double s) const;
   /// Returns the place of the outside, mm.
   [[nodiscard]] Eigen::Vector2d point(double s) const { return curve_.at(s).point; }
+  /// Returns the girths strictly between two, ascending, at which the curvature jumps or a blend
+  /// begins or ends.
+  [[nodiscard]] std::vector<double> breaks(double from, double to) const;
   /// Returns the girths strictly between two, ascending, at which a polyline needs points: on arcs,
   /// and as far next to them as the angle is blended.
   [[nodiscard]] std::vector<double> places(double from, double to) const;

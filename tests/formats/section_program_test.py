@@ -1,0 +1,153 @@
+"""G-code around tubes that are not round, replayed along every block by formulas of its own: the tip on the outside, the cut on the table's line."""
+
+import json
+import math
+import random
+
+from gcode_test import moves
+from service import FormatTest, main
+
+SAG = 0.02  # mm, of a block between rows
+LEAN = 1.0  # deg
+SAMPLES = 7  # inside each block, at least; one every quarter of a mm
+
+
+class Outline:
+    """A rectangle that a disc is moved over."""
+
+    def __init__(self, height, width, corner):
+        self.corner, self.x, self.y = corner, height / 2 - corner, width / 2 - corner
+
+    def foot(self, x, y):
+        """(distance beyond the outside, direction of the normal in deg, girth)"""
+        mx, my = max(-self.x, min(self.x, x)), max(-self.y, min(self.y, y))
+        off, normal = math.hypot(x - mx, y - my), math.degrees(math.atan2(y - my, x - mx)) % 360
+        return off - self.corner, normal, self.girth(mx, my, normal)
+
+    def girth(self, mx, my, normal):
+        """Each quarter of the normal's directions has passed one flat and one corner more; a flat adds the way along it."""
+        quarter = self.corner * math.pi / 2
+        flats, along = [2 * self.y, 2 * self.x, 2 * self.y, 2 * self.x], [my, -mx, -my, mx]
+        face = round(normal / 90) % 4
+        if abs((normal - 90 * face + 180) % 360 - 180) < 1e-9:
+            before = (flats[0] / 2 + sum(flats[1:face]) + flats[face] / 2 if face else 0) + face * quarter
+            return (before + along[face]) % (sum(flats) + 4 * quarter)
+        corner = int(normal // 90)
+        return flats[0] / 2 + sum(flats[1:corner + 1]) + self.corner * math.radians(normal)
+
+    def whole(self):
+        return 4 * self.x + 4 * self.y + 2 * math.pi * self.corner
+
+
+def line_of(points, girth):
+    """z of the torch line on the outside and tan B at any girth: both straight between rows."""
+    s, z = points["girth_mm"], points["torch_outer_mm"]
+    slope = [math.tan(math.radians(b)) for b in points["b_deg"]]
+    rows = [(s[-1] - girth, z[-1], slope[-1]), *zip(s, z, slope), (s[0] + girth, z[0], slope[0])]
+
+    def at(place):
+        found = []
+        for (a, za, ta), (b, zb, tb) in zip(rows, rows[1:]):
+            if a - 1e-6 <= place <= b + 1e-6:
+                share = (place - a) / (b - a) if b > a else 0.0
+                found.append((za + share * (zb - za), ta + share * (tb - ta)))
+        return found
+    return at
+
+
+def torch(at, length):
+    """(x, y of the tip across the tube, z, B deg, angle of the torch's plane in deg): the pivot less the arm, turned back by A."""
+    b, up = math.radians(at.get("B", 0.0)), math.radians(at["A"])
+    across, out = -at["Y"], at["Z"] - length * math.cos(b)
+    return (out * math.cos(up) - across * math.sin(up), out * math.sin(up) + across * math.cos(up), at["X"] - length * math.sin(b), math.degrees(b), at["A"])
+
+
+LASER = {"preset": "tube_laser"}
+BEVEL = {"root_surface": "inner", "groove": {"rule": "half_dihedral"}, "torch": {"min_deg": -60, "max_deg": 60},
+         "smoothing": {"method": "envelope", "limits": {"max_slope_deg_per_mm": 5, "max_curvature_deg_per_mm2": 1}}}
+
+
+def end_of(target, cut):
+    return {"target": target, "cutters": [{"kind": "tube", "outer_diameter_mm": 168.3, "inclination_deg": 75, "clocking_deg": 20, "offset_mm": 0}],
+            "kerf_mm": 0.4, **cut}
+
+
+def drawn(dice, k):
+    """The end of a rectangular tube, every fifth of a flat oval one; every third bevelled."""
+    wall = dice.uniform(2, 8)
+    corner = wall * dice.uniform(1.1, 2.5)
+    target = {"kind": "rectangular_tube", "height_mm": 2 * corner + dice.uniform(5, 80), "width_mm": 2 * corner + dice.uniform(5, 80),
+              "wall_mm": wall, "corner_radius_mm": corner}
+    if k % 5 == 4:
+        target = {"kind": "flat_oval_tube", "height_mm": dice.uniform(30, 60), "width_mm": dice.uniform(70, 120), "wall_mm": wall}
+    return end_of(target, LASER if k % 3 else BEVEL)
+
+
+class SectionProgram(FormatTest):
+    def follow(self, name, body, length, more="", height=0.0):
+        answer = self.service.answer("bevel-tables", body)
+        s, points = answer["result"]["section"], answer["result"]["points"]
+        outline = Outline(s["height_mm"], s["width_mm"], s["corner_radius_mm"])
+        self.assertAlmostEqual(outline.whole(), s["girth_mm"], delta=1e-9)
+        line = line_of(points, s["girth_mm"])
+        program = self.service.text("bevel-tables", body, f"format=gcode&speed_mm_min=900&pivot_length_mm={length}{more}").decode("ascii")
+        self.assertIn(f"(tube {round(s['height_mm'], 2):g} x {round(s['width_mm'], 2):g} x {round(s['wall_mm'], 2):g} mm, corners", program)
+        blocks = [at for at, took in moves(program) if "A" in at]
+        worst, leaned, seen = 0.0, 0.0, set()
+        for before, after in zip(blocks, blocks[1:]):
+            samples = max(SAMPLES, int(4 * math.dist(*([at[axis] for axis in "XYZ"] for at in (before, after)))))
+            for k in range(samples + 1):
+                share = (k + 1) / (samples + 1)
+                at = {axis: before.get(axis, v) + share * (v - before.get(axis, v)) for axis, v in after.items()}
+                x, y, z, b, up = torch(at, length + height)
+                off, normal, girth = outline.foot(x, y)
+                worst = max(worst, abs(off))
+                leaned = max(leaned, abs((up - normal + 180) % 360 - 180))
+                on_line = [(abs(z - wanted), abs(b - math.degrees(math.atan(slope)))) for wanted, slope in line(girth)]
+                near = min(on_line, default=(9, 9))
+                if near[0] <= SAG + 1e-3 and near[1] < 0.3:  # else on a lead, or a stretch that is then not seen
+                    seen.add(int(girth))
+        print(f"{name}: {len(blocks)} blocks, at most {worst:.4f} mm off, lean {leaned:.3f} deg")
+        self.assertLessEqual(worst, SAG + 1e-3, name)
+        self.assertLessEqual(leaned, LEAN + 1e-3, name)
+        self.assertGreaterEqual(len(seen), int(s["girth_mm"]) - 2, f"{name}: a stretch of the girth is not cut")
+        return program
+
+    def test_the_tip_stays_on_the_outside_and_the_cut_on_its_line(self):
+        dice = random.Random(52)
+        for k in range(10):
+            self.follow(f"{k}", drawn(dice, k), [0, 120][k % 2], "&lead_mm=3" if k % 2 else "")
+
+    def test_flats_have_room_for_leads(self):
+        dice, refused = random.Random(5), 0
+        for k in range(60):
+            status, _, content = self.service.ask("bevel-tables", drawn(dice, k), "format=gcode&speed_mm_min=900&pivot_length_mm=0&lead_mm=2")
+            if status == 200:
+                self.assertNotIn(b"has no room for more", content)
+            else:
+                self.assertIn(b"would enter the part", content)
+                refused += 1
+        self.assertEqual(refused, 0)
+
+    def test_it_names_the_axes_and_lifts_clear_of_the_corners(self):
+        body = end_of({"size": "SHS 100x100x5 EN 10219"}, LASER)
+        program = self.follow("SHS 100", body, 0, "&clearance_mm=30&lead_mm=3&torch=on&pierce_height_mm=1.5&pierce_delay_s=0.2&cut_height_mm=1.5", 1.5)
+        self.assertIn("(A keeps the normal of the wall up, Y and Z follow the wall, Y0: over the axis of the tube, face 2 lies to -Y)", program)
+        reach = math.hypot(40, 40) + 10
+        self.assertIn(f"G0 Z{reach + 30:.5f}", program)
+        self.assertEqual(program.count("M3 S1"), 1)
+
+    def test_what_it_needs_is_said_at_its_option(self):
+        body = end_of({"size": "SHS 100x100x5 EN 10219"}, LASER)
+        for query, option, word in [("", "?pivot_length_mm", "height of the wall"), ("&pivot_length_mm=0&tabs=2&tab_mm=2&lead_mm=3", "?tabs", "one pass"),
+                                    ("&pivot_length_mm=0&start_deg=10", "?start_deg", "one pass"),
+                                    ("&pivot_length_mm=0&passes=both", "?passes", "one pass"),
+                                    ("&machine=five_axis_cutter&material=steel", "?machine", "five_axis_cutter has no axis across")]:
+            status, _, content = self.service.ask("bevel-tables", body, "format=gcode&speed_mm_min=900" + query)
+            error = json.loads(content)["errors"][0]
+            self.assertEqual((status, error["pointer"]), (422, option), content)
+            self.assertIn(word, error["hint"])
+
+
+if __name__ == "__main__":
+    main()
