@@ -46,8 +46,7 @@ struct BevelTables {
   static Spec decode(Reader& in) {
     if (!cuts_section(in)) return {decode_bevel_table_request(in)};
     auto out = decode_section_cut_request(in);
-    auto section = out.section;
-    return {BevelTableRequest(std::move(out)), std::move(section)};
+    return {std::move(out.table), std::move(out.section)};
   }
 
   static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {

@@ -125,9 +125,9 @@ bool cuts_section(const Reader& in) { return has_section_target(in) || has_secti
 
 SectionCutRequest decode_section_cut_request(Reader& in) {
   SectionCutRequest out;
-  out.preset = decode_preset(in);
-  check_accepts(in, out.preset);
-  out.section = decode_section_cut(in, out);
+  out.table.preset = decode_preset(in);
+  check_accepts(in, out.table.preset);
+  out.section = decode_section_cut(in, out.table);
   return out;
 }
 

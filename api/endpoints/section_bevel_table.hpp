@@ -24,8 +24,9 @@ namespace tubecut::api {
 [[nodiscard]] bool cuts_section(const Reader& in);
 
 /// A request for the bevel table of a target that is not round.
-struct SectionCutRequest : BevelTableRequest {
-  SectionTarget section;
+struct SectionCutRequest {
+  BevelTableRequest table = {};
+  SectionTarget section = {};
 };
 /// Reads all of it.
 [[nodiscard]] SectionCutRequest decode_section_cut_request(Reader& in);

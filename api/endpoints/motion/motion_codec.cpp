@@ -214,7 +214,7 @@ struct CutOf {
     return (*this)(contour_of(spec, table));
   }
   Result<motion::Cut> operator()(const SectionCutRequest& asked) const {
-    TRY(const auto spec, under("cut", resolve(BevelTableRequest(asked), stop)));
+    TRY(const auto spec, under("cut", resolve(asked.table, stop)));
     const auto& section = asked.section.section;
     TRY(const auto table,
         under("cut", on_node(spec.source, bevel::section_table(section, spec, stop))));
@@ -273,6 +273,18 @@ void check_crosses(Reader& in, const motion::Machine& machine) {
            in.find("machine"));
 }
 
+/// Requires the side of the scrap of a bare contour with a lead.
+void check_scrap(Reader& in) {
+  const auto* body = in.find("contour");
+  if (!in.understood("contour") || body->find("scrap") != nullptr ||
+      body->find("points") != nullptr)
+    return;
+  in.issue({.code = ErrorCode::missing_field,
+            .pointer = "contour/scrap",
+            .limit = Json{"-z|+z|inside"},
+            .hint = "if a bare contour has a lead, scrap must name the side that falls away"});
+}
+
 }  // namespace
 
 ScheduleRequest decode_schedule_request(Reader& in) {
@@ -325,14 +337,7 @@ ScheduleRequest decode_schedule_request(Reader& in) {
     out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut, certain); });
   }
   if (std::holds_alternative<SectionCutRequest>(out.cut)) check_crosses(in, out.machine);
-  const auto* contour = std::get_if<motion::CutPath>(&out.cut);
-  const auto* body = in.find("contour");
-  if (contour != nullptr && in.understood("contour") && out.motion.lead &&
-      body->find("scrap") == nullptr && body->find("points") == nullptr)
-    in.issue({.code = ErrorCode::missing_field,
-              .pointer = "contour/scrap",
-              .limit = Json{"-z|+z|inside"},
-              .hint = "if a bare contour has a lead, scrap must name the side that falls away"});
+  if (std::holds_alternative<motion::CutPath>(out.cut) && out.motion.lead) check_scrap(in);
   out.max_periods =
       static_cast<std::int64_t>(in.binary() ? limit::periods_cbor_max : limit::periods_json_max);
   return out;
