@@ -9,6 +9,7 @@ import random
 import re
 
 import drawn_parts
+import numpy as np
 import torch_program
 from service import FormatTest, cutout_points, drawing_seed, examples, main, seam_row
 from torch_program import Fault
@@ -22,6 +23,23 @@ TOUCH = 0.02 + 0.1  # mm a lead may reach behind the line: rounding of the tange
 
 def query(options, **more):
     return "&".join(["format=gcode"] + [f"{name}={value}" for name, value in {**options, **more}.items() if value is not None])
+
+
+class Wall(list):
+    """A line on one unrolled wall, its pieces also as arrays, because every place of a program is held against all of them."""
+
+    def __init__(self, points):
+        super().__init__(points)
+        at = np.array(points, dtype=float)
+        self.a, self.b, self.way = at[:-1], at[1:], np.diff(at, axis=0)
+        self.square = np.einsum("ij,ij->i", self.way, self.way)
+
+    def above(self, point):
+        """How many pieces pass over a place, seen along the tube."""
+        x, y = point
+        over = (self.a[:, 0] <= x) != (self.b[:, 0] <= x)
+        a, way = self.a[over], self.way[over]
+        return int(np.count_nonzero(a[:, 1] + way[:, 1] * (x - a[:, 0]) / way[:, 0] > y))
 
 
 class Line:
@@ -40,7 +58,7 @@ class Line:
             self.rows = [(phi, z, math.degrees(math.atan(t)), 0.0) for (phi, z), (_, t) in
                          zip(seam_row(p["phi_deg"], p["torch_outer_mm"]), tangents)]
         self.side = {"start": -1, "finish": 1}.get(step["what"])
-        self.walls = [[self.flat(row, depth) for row in self.rows] for depth in (False, True)]
+        self.walls = [Wall([self.flat(row, depth) for row in self.rows]) for depth in (False, True)]
         self.length = sum(math.dist(a, b) for a, b in zip(self.walls[0], self.walls[0][1:]))
 
     def flat(self, at, deep):
@@ -71,24 +89,20 @@ class Line:
             return -far if inside(point, line) else far
         x, y = (point[0] - line[0][0]) % girth + line[0][0], point[1]
         far = min(distance((x + turn * girth, y), line) for turn in (-1, 0, 1))
-        over = sum(1 for (ax, ay), (bx, by) in zip(line, line[1:]) if (ax <= x) != (bx <= x) and ay + (by - ay) * (x - ax) / (bx - ax) > y)
-        kept = over % 2 == (1 if self.side > 0 else 0)
+        kept = line.above((x, y)) % 2 == (1 if self.side > 0 else 0)
         return far if kept else -far
 
 
 def distance(point, line):
-    best = math.inf
-    px, py = point
-    for (ax, ay), (bx, by) in zip(line, line[1:]):
-        square = (bx - ax)**2 + (by - ay)**2
-        share = 0.0 if square == 0 else min(1.0, max(0.0, ((px - ax) * (bx - ax) + (py - ay) * (by - ay)) / square))
-        best = min(best, math.hypot(px - ax - share * (bx - ax), py - ay - share * (by - ay)))
-    return best
+    line = line if isinstance(line, Wall) else Wall(line)
+    from_a = np.asarray(point) - line.a
+    along = np.einsum("ij,ij->i", from_a, line.way)
+    share = np.clip(np.divide(along, line.square, out=np.zeros_like(along), where=line.square > 0), 0, 1)
+    return float(np.sqrt(np.min(np.sum((from_a - share[:, None] * line.way)**2, axis=1))))
 
 
 def inside(point, line):
-    x, y = point
-    return sum(1 for (ax, ay), (bx, by) in zip(line, line[1:]) if (ax <= x) != (bx <= x) and ay + (by - ay) * (x - ax) / (bx - ax) > y) % 2 == 1
+    return line.above(point) % 2 == 1
 
 
 def joins(cut):
