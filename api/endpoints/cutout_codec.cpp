@@ -32,6 +32,7 @@ struct Common {
   const bevel::TableSpec& once;
   const section::Section* section;  // nullptr of a round tube
   bool sure;                        // the request's tube was understood
+  bool on_each_face = false;        // within a pattern over faces
 
   /// Returns the radius of the circle that is as long as the girth.
   [[nodiscard]] double radius() const {
@@ -129,17 +130,29 @@ void refuse(Reader& in, std::string_view name, const std::string& hint) {
         in.find(name));
 }
 
-/// Places round a tube whose kind is unknown, because its own fields were refused.
+/// A place round a tube whose kind is unknown, because its own fields were refused: one of those
+/// that the contract has.
 void decode_anywhere(Reader& in) {
-  in.note("offset_mm");
+  const auto which = in.exactly_one({"phi_deg", "girth_mm", "face"});
+  if (which && *which == 2) {
+    in.integer("face", 1, 4);
+    in.optional_number("offset_mm");
+    return;
+  }
+  refuse(in, "offset_mm", "goes with face");
+  if (which) in.number(*which == 0 ? "phi_deg" : "girth_mm");
+}
+
+/// The other places are left unread, because a field of the other kind of tube is refused.
+void note_places(Reader& in) {
   in.note("face");
-  if (in.has("face")) in.integer("face", 1, 4);
-  for (const char* name : {"phi_deg", "girth_mm", "offset_mm"}) in.optional_number(name);
+  in.note("offset_mm");
+  in.note("girth_mm");
 }
 
 void decode_on_section(Reader& in, const Common& common, cutout::Anchor& out) {
   refuse(in, "phi_deg", std::string(kRoundTube) + "give face and offset_mm, or girth_mm");
-  if (in.has("phi_deg")) return decode_anywhere(in);
+  if (in.has("phi_deg")) return note_places(in);
   const auto which = in.exactly_one({"face", "girth_mm"});
   if (which && *which == 1) {
     refuse(in, "offset_mm", "goes with face");
@@ -187,7 +200,7 @@ cutout::Anchor decode_anchor(Reader& in, const Common& common) {
 /// A step round the tube, by its angle or its way on the outside; on a section, by its way.
 std::optional<double> decode_turn(Reader& in, const Common& common, bool required) {
   in.note("pitch_round_mm");
-  const bool round = common.section == nullptr || !common.sure;
+  const bool round = !common.on_each_face && (common.section == nullptr || !common.sure);
   if (round)
     in.note("pitch_deg");
   else
@@ -266,10 +279,12 @@ cutout::Faces decode_faces(Reader& in, const Common& common) {
   in.object("each", [&](Reader& e) {
     const auto kind = e.tag("kind", kKinds);
     if (!kind) return 0;
+    auto here = common;
+    here.on_each_face = true;
     if (*kind == Kind::grid)
-      out.each = decode_grid(e, common);
+      out.each = decode_grid(e, here);
     else
-      out.each = decode_linear(e, common);
+      out.each = decode_linear(e, here);
     return 0;
   });
   return out;

@@ -17,7 +17,6 @@
 #include "api/formats/drawing/partner_names.hpp"
 #include "api/formats/gcode/gcode.hpp"
 #include "api/formats/part_formats.hpp"
-#include "api/formats/section_formats.hpp"
 #include "api/formats/section_part_formats.hpp"
 #include "api/formats/step/step.hpp"
 #include "api/limits.hpp"
@@ -78,8 +77,7 @@ void encode_end(const PartRequest& spec, const Parts::Out& out, bool finish, Wri
   if (out.laser) encode_end_report(end.table, finish ? out.laser->finish : out.laser->start, w);
 }
 
-/// `PrintSection`: nullptr if the format prints round parts only.
-template <auto Print, auto PrintSection = nullptr>
+template <auto Print, auto PrintSection>
 std::string print(const PartRequest& spec, const Parts::Out& out, const Caption& caption) {
   auto named = caption;
   const auto* ends = caption.request != nullptr ? caption.request->find("ends") : nullptr;
@@ -93,11 +91,8 @@ std::string print(const PartRequest& spec, const Parts::Out& out, const Caption&
   };
   named.partners = of("start", spec.start_ids, count(false));
   named.finish_partners = of("finish", spec.finish_ids, count(true));
-  if (!out.of_section) return Print(spec.part, out, named);
-  if constexpr (std::is_null_pointer_v<decltype(PrintSection)>)
-    throw no_format_of_section("csv, svg, pdf, dxf, nc1 and step");
-  else
-    return PrintSection(spec.of_section, *out.of_section, named);
+  if (out.of_section) return PrintSection(spec.of_section, *out.of_section, named);
+  return Print(spec.part, out, named);
 }
 
 }  // namespace
@@ -243,7 +238,13 @@ const std::vector<Format<Parts::Spec, Parts::Out>>& Parts::formats() {
       {"dxf", "image/vnd.dxf", &print<part_dxf, section_part_dxf>, {"template", "tube"}},
       {"step", "model/step", &print<part_step, section_part_step>, {"smooth", "straight"}},
       {"nc1", "application/x-dstv", &print<part_dstv, section_part_dstv>, {}, {}, false, true},
-      {"gcode", "text/x-gcode", &print<part_gcode>, {}, gcode_options(), true, true}};
+      {"gcode",
+       "text/x-gcode",
+       &print<part_gcode, section_part_gcode>,
+       {},
+       gcode_options(),
+       true,
+       true}};
   return kFormats;
 }
 

@@ -14,6 +14,7 @@
 #include "api/formats/drawing/wrap_template.hpp"
 #include "api/formats/dxf/dxf.hpp"
 #include "api/formats/dxf/section_dstv.hpp"
+#include "api/formats/gcode/gcode.hpp"
 #include "api/formats/part_formats.hpp"
 #include "api/wire/section_tables.hpp"
 
@@ -70,6 +71,11 @@ std::string section_part_dxf(const part::SectionPartSpec& spec, const part::Sect
 std::string section_part_dstv(const part::SectionPartSpec& spec, const part::SectionPart& part,
                               const Caption& caption) {
   return print_dstv(spec, part, caption);
+}
+
+std::string section_part_gcode(const part::SectionPartSpec& spec, const part::SectionPart& part,
+                               const Caption& caption) {
+  return print_gcode(torch_job(spec, part, caption), caption);
 }
 
 }  // namespace tubecut::api

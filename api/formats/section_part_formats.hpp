@@ -23,5 +23,8 @@ namespace tubecut::api {
 /// dxf/section_dstv.hpp
 [[nodiscard]] std::string section_part_dstv(const part::SectionPartSpec& spec,
                                             const part::SectionPart& part, const Caption& caption);
+/// gcode/gcode.hpp
+[[nodiscard]] std::string section_part_gcode(const part::SectionPartSpec& spec,
+                                             const part::SectionPart& part, const Caption& caption);
 
 }  // namespace tubecut::api

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/base/elementary.hpp"
@@ -48,13 +50,50 @@ class Loop {
   const motion::Track& track_;
 };
 
+/// How far the way from the centre to a point is from square to the cut, 0 to 1.
+double off_square(const Loop& loop, std::size_t i, const Way& centre) {
+  return std::abs((loop.at(i) - centre).normalized().dot(loop.along(i)));
+}
+
+/// Inserts the point nearest to the centre on a long straight piece, because a window has rows at
+/// its corners only; returns its index.
+std::optional<std::size_t> add_foot(const Way& centre, motion::Track& track) {
+  constexpr double kEnds = 0.1;  // of a piece, where no cut begins
+  const Loop loop(track);
+  std::optional<std::size_t> best;
+  double nearest = std::numeric_limits<double>::infinity(), at = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Way piece = loop.at(i + 1) - loop.at(i);
+    const double share = (centre - loop.at(i)).dot(piece) / piece.squaredNorm();
+    const double far = (loop.at(i) + share * piece - centre).norm();
+    if (piece.norm() < kLeastArc || !(share > kEnds && share < 1.0 - kEnds) || far >= nearest)
+      continue;
+    nearest = far;
+    best = i;
+    at = share;
+  }
+  if (!best) return best;
+  const auto &from = track.points[*best], &to = track.points[*best + 1];
+  auto foot = from;
+  foot.phi += at * (to.phi - from.phi);
+  foot.z += at * (to.z - from.z);
+  foot.b += at * (to.b - from.b);
+  foot.a += at * (to.a - from.a);
+  foot.corner = false;
+  track.points.insert(track.points.begin() + static_cast<std::ptrdiff_t>(*best + 1), foot);
+  return *best + 1;
+}
+
 }  // namespace
 
 Result<motion::CutWithLead> centre_lead(const TorchCut& cut, double overcut) {
-  TRY(const auto track, motion::track(motion::without_repeats(cut.path)));
-  const Loop loop(track);
+  constexpr double kSkew = 0.05;  // of the way onto the cut, more than rows of an arc have
+  TRY(auto track, motion::track(motion::without_repeats(cut.path)));
   const Way centre(track.radius * cut.centre->phi, cut.centre->z);
-  const auto first = loop.squarest(centre);
+  auto first = Loop(track).squarest(centre);
+  if (off_square(Loop(track), first, centre) > kSkew)
+    first = add_foot(centre, track).value_or(first);
+  const Loop loop(track);
   const Way onto = loop.at(first) - centre;
   motion::CutWithLead out;
   const auto lead_point = [&](const Way& p) {

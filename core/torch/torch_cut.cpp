@@ -66,20 +66,24 @@ TorchCut hole_cut(const bevel::HoleSpec& spec, const bevel::Hole& hole, std::str
   return out;
 }
 
-TorchCut cutout_cut(const part::PartSpec& spec, const part::Part& part, std::size_t index) {
-  const auto& one = part.cutouts.instances[index];
-  const auto& mould = part.cutouts.mould_of(one);
-  const auto rows = cutout::placed(part.cutouts, one);
+/// `tube`: the path without points.
+TorchCut cutout_cut(const cutout::Layout& layout, std::size_t index, double kerf,
+                    motion::CutPath tube) {
+  const auto& one = layout.instances[index];
+  const auto& mould = layout.mould_of(one);
+  const auto rows = cutout::placed(layout, one);
   TorchCut out{.name = "cut-out " + one.name + (mould.laying.far() ? " far" : ""),
-               .path = on_tube(spec.target, motion::Scrap::inside),
-               .kerf = spec.cutouts.kerf};
+               .path = std::move(tube),
+               .kerf = kerf,
+               .on_flat = mould.laying.lay() == cutout::Lay::flat};
+  out.path.scrap = motion::Scrap::inside;
   out.path.phi = rows.torch_phi;
   out.path.z = rows.torch_z;
   out.path.b = rows.b;
   if (std::ranges::any_of(rows.a, [](double a) { return a != 0.0; })) out.path.a = rows.a;
   for (auto* column : {&out.path.phi, &out.path.z, &out.path.b, &out.path.a})
     if (!column->empty()) column->push_back(column->front());
-  const double turn = mould.laying.turn(mould.centre.y(), spec.target.outer_radius);
+  const double turn = mould.laying.turn(mould.centre.y(), mould.laying.outer());
   out.centre = {one.phi + mould.laying.phase(turn), one.z + mould.centre.x()};
   return out;
 }
@@ -167,7 +171,30 @@ TorchCut torch_cut(const section::Section& section, const bevel::TableSpec& spec
   out.path.z = table.torch_outer;
   out.path.b = table.b;
   out.path.corner = table.corner;
+  // The first row may lie just before the datum, by rounding.
+  auto& phi = out.path.phi;
+  if (phi.size() > 1 && phi.front() > phi[1]) phi.front() = 0.0;
   begin_at_seam(out.path);
+  return out;
+}
+
+std::vector<TorchCut> torch_cuts(const part::SectionPartSpec& spec, const part::SectionPart& part) {
+  using What = part::Step::What;
+  std::vector<TorchCut> out;
+  for (const auto& step : part.sequence) {
+    if (step.what == What::mark) continue;
+    if (step.what == What::cutout) {
+      out.push_back(
+          cutout_cut(part.cutouts, step.index, spec.cutouts.kerf, motion::around(spec.section)));
+      continue;
+    }
+    const bool finish = step.what == What::finish;
+    const auto& end = finish ? part.finish : part.start;
+    auto cut = torch_cut(spec.section, end.spec, end.table);
+    cut.name = joint::end_name(finish);
+    cut.path.scrap = finish ? motion::Scrap::plus_z : motion::Scrap::minus_z;
+    out.push_back(std::move(cut));
+  }
   return out;
 }
 
@@ -182,7 +209,8 @@ std::vector<TorchCut> torch_cuts(const part::PartSpec& spec, const part::Part& p
           spec.holes[hole.asked].hole, hole.hole,
           "hole " + std::to_string(step.index) + (branch.empty() ? "" : " for " + branch)));
     } else if (step.what == What::cutout) {
-      out.push_back(cutout_cut(spec, part, step.index));
+      out.push_back(cutout_cut(part.cutouts, step.index, spec.cutouts.kerf,
+                               on_tube(spec.target, motion::Scrap::inside)));
     } else if (step.what != What::mark) {
       out.push_back(part_end(part, step.what == What::finish));
     }
@@ -232,7 +260,9 @@ Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach,
   if (way || !cut.centre || way.error().code() != ErrorCode::lead_blocked) return way;
   TRY(auto from_centre, centre_lead(cut, approach.lead->overcut));
   for (std::size_t i = 0; i < from_centre.cut_first; ++i)
-    if (motion::intrusion(border, from_centre.points[i], stop) > motion::kLeadTouch) return way;
+    if (motion::intrusion(border, from_centre.points[i], stop) >
+        motion::lead_touch(border, kTouching))
+      return way;
   return TorchWay{std::move(from_centre), 0.0};
 }
 

@@ -12,6 +12,7 @@
 #include "core/motion/path/border.hpp"
 #include "core/motion/path/lead.hpp"
 #include "core/part/part.hpp"
+#include "core/part/section/section_part.hpp"
 
 namespace tubecut::torch {
 
@@ -27,6 +28,7 @@ struct TorchCut {
   double land = 0.0;     // mm: its bevel begins at a land of this height, which it does not cut
   bool of_land = false;  // true for the pass that cuts the land
   bool mark = false;
+  bool on_flat = false;  // a cut-out of a section: the torch keeps the normal of its face
   /// Of a cut-out: deep in its scrap, rad and mm on the outside.
   struct Deep {
     double phi = 0.0, z = 0.0;
@@ -45,6 +47,8 @@ struct TorchCut {
                                  const bevel::SectionTable& table);
 /// Returns the cuts of a part in the order of its sequence.
 [[nodiscard]] std::vector<TorchCut> torch_cuts(const part::PartSpec& spec, const part::Part& part);
+[[nodiscard]] std::vector<TorchCut> torch_cuts(const part::SectionPartSpec& spec,
+                                               const part::SectionPart& part);
 
 /// Returns the same with a land's pass before its bevel's. The first pass cuts off all that the
 /// second would not hold, and the last cut of a part's sequence releases the part.

@@ -398,9 +398,6 @@ class SectionFiles(FormatTest):
         for query, name in (("format=svg&view=section", "view"), ("format=nc1", "format"), ("format=step", "format")):
             status, _, content = self.service.ask("bevel-tables", body, query)
             self.assertEqual((status, name in content.decode()), (422, True), content)
-        part = self.drawn_part()[0]
-        status, _, content = self.service.ask("parts", part, "format=gcode&speed_mm_min=2000")
-        self.assertEqual((status, "csv, svg, pdf, dxf, nc1 and step" in content.decode()), (422, True), content)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import json
 import math
 import random
+import re
 
 from gcode_test import moves
 from service import FormatTest, main
@@ -60,6 +61,22 @@ def torch(at, length):
     b, up = math.radians(at.get("B", 0.0)), math.radians(at["A"])
     across, out = -at["Y"], at["Z"] - length * math.cos(b)
     return (out * math.cos(up) - across * math.sin(up), out * math.sin(up) + across * math.cos(up), at["X"] - length * math.sin(b), math.degrees(b), at["A"])
+
+
+def off(at, line):
+    """mm from a place to a line of straight pieces."""
+    def one(a, b):
+        way = (b[0] - a[0], b[1] - a[1])
+        square = way[0]**2 + way[1]**2
+        share = max(0.0, min(1.0, ((at[0] - a[0]) * way[0] + (at[1] - a[1]) * way[1]) / square)) if square else 0.0
+        return math.dist(at, (a[0] + share * way[0], a[1] + share * way[1]))
+    return min(map(one, line, line[1:]))
+
+
+def cuts_of(program):
+    """[(title, the places of its blocks while the torch cuts)]"""
+    texts = re.split(r"(?m)^(?=\(cut: )", program)[1:]
+    return [(text.splitlines()[0], [at for at, took in moves(text) if took]) for text in texts]
 
 
 LASER = {"preset": "tube_laser"}
@@ -136,6 +153,71 @@ class SectionProgram(FormatTest):
         reach = math.hypot(40, 40) + 10
         self.assertIn(f"G0 Z{reach + 30:.5f}", program)
         self.assertEqual(program.count("M3 S1"), 1)
+
+    def test_a_parts_program_cuts_its_openings_square_and_both_ends(self):
+        """In the order of the answer: each opening on its torch line, square to its face, with the pierce within it; then the finish and the start."""
+        dice = random.Random(11)
+        for k in range(6):
+            body = self.part(dice, k)
+            result = self.service.answer("parts", body)["result"]
+            s = result["section"]
+            outline, girth = Outline(s["height_mm"], s["width_mm"], s["corner_radius_mm"]), s["girth_mm"]
+            length = [0, 120][k % 2]
+            program = self.service.text("parts", body, f"format=gcode&speed_mm_min=900&pivot_length_mm={length}&lead_mm=2").decode("ascii")
+            cuts = cuts_of(program)
+            groups = {(g["id"], one["id"], g["side"]): (g, one) for g in result["cutouts"] for one in g["instances"]}
+            flat = [(g, one) for g in result["cutouts"] for one in g["instances"]]
+            steps = [step for step in result["sequence"] if step["what"] != "mark"]
+            self.assertEqual(len(cuts), len(steps))
+            self.assertEqual(len(groups), len(flat))
+            for step, (name, blocks) in zip(steps, cuts):
+                self.assertIn({"cutout": "cut-out"}.get(step["what"], step["what"]), name)
+                torches = [torch(at, length) for at in blocks]
+                for x, y, *_ in torches:
+                    self.assertLessEqual(abs(outline.foot(x, y)[0]), SAG + 1e-3, name)
+                if step["what"] == "cutout":
+                    self.opening(name, *flat[step["index"]], torches, outline, girth)
+                else:
+                    self.end(name, result["ends"][step["what"]], torches, outline, girth)
+
+    def opening(self, name, group, one, torches, outline, girth):
+        first = group["instances"][0]
+        line = [(s + one["girth_mm"] - first["girth_mm"], z + one["z_mm"] - first["z_mm"])
+                for s, z in zip(group["points"]["torch_girth_mm"], group["points"]["torch_z_mm"])]
+        line.append(line[0])
+        face = [0, 90, 180, 270][one["face"] - 1]
+        seen = 0
+        for x, y, z, b, up in torches:
+            self.assertLess(abs((up - face + 180) % 360 - 180), 1e-6, f"{name}: not square to its face")
+            self.assertLess(abs(b), 1e-9)
+            s = outline.foot(x, y)[2]
+            near = min(off((s + turn * girth, z), line) for turn in (-1, 0, 1))
+            seen += near < 2e-3
+        self.assertGreater(seen, 4, f"{name}: the cut is not on its line")
+        covered = [min(math.dist(at, ((outline.foot(x, y)[2] - at[0] + girth / 2) % girth - girth / 2 + at[0], z)) for x, y, z, *_ in torches) for at in line]
+        self.assertLess(max(covered), 2e-3, f"{name}: a row is left out")
+
+    def end(self, name, end, torches, outline, girth):
+        line = line_of(end["points"], girth)
+        seen = set()
+        for x, y, z, *_ in torches:
+            s = outline.foot(x, y)[2]
+            if min((abs(z - wanted) for wanted, _ in line(s)), default=9) <= SAG + 1e-3:
+                seen.add(int(4 * s / girth) % 4)
+        self.assertEqual(seen, {0, 1, 2, 3}, f"{name}: a quarter of the girth is not cut")
+
+    @staticmethod
+    def part(dice, k):
+        body = drawn(dice, 1 if k % 5 == 4 else k)
+        target = body["target"] | {"height_mm": 70, "width_mm": 60, "length_mm": 700, "wall_mm": 3, "corner_radius_mm": 6}
+        end = {key: value for key, value in body.items() if key not in ("target", "kerf_mm", "preset", "torch")}
+        shapes = [{"kind": "circle", "diameter_mm": dice.choice([4.5, 5, dice.uniform(6, 20)])},
+                  {"kind": "slot", "length_mm": 24, "width_mm": dice.uniform(6, 12), "angle_deg": dice.uniform(0, 360)},
+                  {"kind": "rectangle", "along_mm": 30, "round_mm": 16, "corner_radius_mm": 2}]
+        cutouts = [{"id": f"c{i}", "shape": shape, "wall": ["through", "normal"][i % 2],
+                    "at": {"z_mm": 250 + 80 * i, "face": dice.randint(1, 4), "offset_mm": dice.uniform(-4, 4)}} for i, shape in enumerate(shapes)]
+        return {"target": target, "ends": {"start": end, "finish": end}, "kerf_mm": 0.4, "cutouts": cutouts,
+                **{key: body[key] for key in ("preset", "torch") if key in body}}
 
     def test_what_it_needs_is_said_at_its_option(self):
         body = end_of({"size": "SHS 100x100x5 EN 10219"}, LASER)

@@ -6,14 +6,28 @@
 
 namespace tubecut::api {
 
-std::string mark_by_hand(const part::Mark& mark, const Post& post) {
-  const std::string what = mark.kind == part::Mark::Kind::datum_line ? "the datum line"
-                           : mark.kind == part::Mark::Kind::partner  ? "partner " + mark.text
-                                                                     : "the name " + mark.text;
+namespace {
+
+template <class Mark>
+std::string by_hand(const Mark& mark, const std::string& round, const Post& post) {
+  using Kind = part::Mark::Kind;
+  const std::string what = mark.kind == Kind::datum_line ? "the datum line"
+                           : mark.kind == Kind::partner  ? "partner " + mark.text
+                                                         : "the name " + mark.text;
   const auto from = post.length_number(mark.z_from), to = post.length(mark.z_to);
-  return "mark by hand: " + what + " at phi " + number(mark.phi * kDegPerRad, Unit::deg) + " deg" +
+  return "mark by hand: " + what + " at " + round +
          (mark.z_from == mark.z_to ? ", " + to : ", " + from + " to " + to) +
          " from the long point of the start";
+}
+
+}  // namespace
+
+std::string mark_by_hand(const part::Mark& mark, const Post& post) {
+  return by_hand(mark, "phi " + number(mark.phi * kDegPerRad, Unit::deg) + " deg", post);
+}
+
+std::string mark_by_hand(const part::SectionMark& mark, const Post& post) {
+  return by_hand(mark, "girth " + post.length(mark.s), post);
 }
 
 }  // namespace tubecut::api

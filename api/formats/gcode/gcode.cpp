@@ -29,7 +29,9 @@ namespace {
 constexpr double kSlow = 1e-3;  // mm, least length a node's time is taken from
 constexpr double kSag = 0.019;  // mm, of one move; below 0.02 with the rounding of its words
 
-TorchPlace place(const motion::CutPoint& p) { return {p.phi, p.z, p.b, p.a}; }
+TorchPlace place(const motion::CutPoint& p, bool on_flat) {
+  return {p.phi, p.z, p.b, p.a, on_flat};
+}
 
 torch::Setup setup_of(const FormatOptions& o) {
   torch::Setup out{.pierce_height = o.pierce_height};
@@ -49,16 +51,17 @@ torch::Setup setup_of(const FormatOptions& o) {
 }
 
 /// Adds positions if a move of all axes would sag.
-void refine(const motion::CutWithLead& way, const TorchReach& reach,
+void refine(const motion::CutWithLead& way, bool on_flat, const TorchReach& reach,
             const std::optional<SectionTurn>& turn, const std::stop_token& stop, Straightness& told,
             TorchCutPlaces& out) {
   const auto& points = way.points;
-  out.places = {place(points.front())};
+  out.places = {place(points.front(), on_flat)};
   for (std::size_t i = 1; i < points.size(); ++i) {
     ask(stop);
-    auto at = place(points[i - 1]);
-    const auto moves = turn ? turn->moves(reach, at, place(points[i]), kSag, told.sag, stop)
-                            : straight_moves(reach, at, place(points[i]), kSag);
+    auto at = place(points[i - 1], on_flat);
+    const auto next_row = place(points[i], on_flat);
+    const auto moves = turn ? turn->moves(reach, at, next_row, kSag, told.sag, stop)
+                            : straight_moves(reach, at, next_row, kSag);
     told.inserted += moves.size() - 1;
     for (const auto& next : moves) {
       if (!turn) told.sag = std::max(told.sag, sag(reach, at, next));
@@ -115,7 +118,7 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
                      .kerf = cut.kerf,
                      .radius = way.radius,
                      .mark = cut.mark});
-      refine(way.points, reach, turn, caption.stop, moves, out.back());
+      refine(way.points, cut.on_flat, reach, turn, caption.stop, moves, out.back());
     }
   }
   return out;
@@ -277,6 +280,27 @@ void refuse_without_across(const std::string& name) {
                                        "tube_table"};
 }
 
+/// Refuses what no program around a section has.
+void refuse_on_section(const FormatOptions& o) {
+  const auto refuse = [](bool is, std::string_view option) {
+    if (is)
+      throw UnfitOption{option,
+                        "a target that is not round is cut in one pass, without tabs or marks, "
+                        "from a flat or its first point"};
+  };
+  refuse(o.passes == Passes::both, "passes");
+  refuse(o.tabs.has_value(), "tabs");
+  refuse(o.start.has_value(), "start_deg");
+  refuse(o.marks, "marks");
+  if (o.process != nullptr) refuse_without_across(o.process->machine);
+}
+
+void tell_length(const part::Lengths& lengths, const FormatOptions& o, TorchJob& job) {
+  const auto& post = post_of(o);
+  job.lengths.push_back("blank " + post.length(lengths.blank) + ", finished part " +
+                        post.length(lengths.longest) + " from tip to tip");
+}
+
 }  // namespace
 
 void refuse_land(const std::string& of, double land, const FormatOptions& o) {
@@ -312,17 +336,7 @@ TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table,
 
 TorchJob torch_job(const section::Section& section, const bevel::TableSpec& spec,
                    const bevel::SectionTable& table, const Caption& caption) {
-  const auto& o = caption.options;
-  const auto refuse = [](bool is, std::string_view option) {
-    if (is)
-      throw UnfitOption{option,
-                        "a target that is not round is cut in one pass, without tabs, from "
-                        "a flat or its first point"};
-  };
-  refuse(o.passes == Passes::both, "passes");
-  refuse(o.tabs.has_value(), "tabs");
-  refuse(o.start.has_value(), "start_deg");
-  if (o.process != nullptr) refuse_without_across(o.process->machine);
+  refuse_on_section(caption.options);
   auto cut = torch::torch_cut(section, spec, table);
   return {.outer_radius = cut.path.outer_radius,
           .section = section,
@@ -332,6 +346,24 @@ TorchJob torch_job(const section::Section& section, const bevel::TableSpec& spec
           .onward = "from the cut into the kept tube",
           .line = "the middle of face 1, girth 0,",
           .seen_from = "the cut"};
+}
+
+TorchJob torch_job(const part::SectionPartSpec& spec, const part::SectionPart& part,
+                   const Caption& caption) {
+  refuse_on_section(caption.options);
+  const auto tube = motion::around(spec.section);
+  TorchJob out{.outer_radius = tube.outer_radius,
+               .section = spec.section,
+               .wall = tube.wall,
+               .cuts = torch::torch_cuts(spec, part),
+               .zero = "the long point of the start, z 0",
+               .onward = "from the start to the finish",
+               .line = "the middle of face 1, girth 0,",
+               .seen_from = "the start"};
+  tell_length(part.lengths, caption.options, out);
+  const auto& post = post_of(caption.options);
+  for (const auto& mark : part.marks) out.by_hand.push_back(mark_by_hand(mark, post));
+  return out;
 }
 
 TorchJob torch_job(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
@@ -344,9 +376,7 @@ TorchJob torch_job(const part::PartSpec& spec, const part::Part& part, const Cap
                .onward = "from the start to the finish",
                .line = "the datum line, phi 0,",
                .seen_from = "the start"};
-  const auto& post = post_of(caption.options);
-  out.lengths.push_back("blank " + post.length(part.lengths.blank) + ", finished part " +
-                        post.length(part.lengths.longest) + " from tip to tip");
+  tell_length(part.lengths, caption.options, out);
   add_marks(spec, part, caption.options, out);
   return out;
 }

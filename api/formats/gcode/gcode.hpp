@@ -27,9 +27,14 @@ struct TorchJob {
 [[nodiscard]] TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table,
                                  const Caption& caption);
 /// The end of a target that is not round: one pass, without tabs.
-/// Errors  throws UnfitOption: passes, tabs, start_deg, machine (one without an axis across).
+/// Errors  throws UnfitOption: passes, tabs, start_deg, marks, machine (one without an axis
+///         across).
 [[nodiscard]] TorchJob torch_job(const section::Section& section, const bevel::TableSpec& spec,
                                  const bevel::SectionTable& table, const Caption& caption);
+/// A part that is not round, in the order of its sequence, as its ends; marks are lines of the
+/// header. Cut-outs are cut square to their flats.
+[[nodiscard]] TorchJob torch_job(const part::SectionPartSpec& spec, const part::SectionPart& part,
+                                 const Caption& caption);
 /// A part in the order of its sequence; marks are lines of the header.
 [[nodiscard]] TorchJob torch_job(const part::PartSpec& spec, const part::Part& part,
                                  const Caption& caption);

@@ -24,7 +24,7 @@ TorchPlace between(const TorchReach& r, const TorchPlace& from, const TorchPlace
                    double share) {
   const auto at = motion::between({r.outer_radius, r.inner_radius}, {from.phi, from.z, from.b},
                                   {to.phi, to.z, to.b}, share);
-  return {at.phi, at.z, at.b};
+  return {at.phi, at.z, at.b, 0.0, from.on_flat};
 }
 
 }  // namespace
@@ -32,8 +32,10 @@ TorchPlace between(const TorchReach& r, const TorchPlace& from, const TorchPlace
 SectionTurn::SectionTurn(const section::Section& section)
     : section_(section), up_(section, kLean), radius_(motion::equal_radius(section)) {}
 
-UprightPlace SectionTurn::at(double phi) const {
-  const double s = radius_ * phi, angle = up_.angle(s);
+UprightPlace SectionTurn::at(double phi, bool on_flat) const {
+  const double s = radius_ * phi;
+  const double angle =
+      on_flat ? section_.outer().at(s).nu + kTwoPi * std::floor(phi / kTwoPi) : up_.angle(s);
   const auto p = up_.point(s);
   const auto [sin, cos] = elementary::sincos(angle);
   return {angle, p.y() * cos - p.x() * sin, p.x() * cos + p.y() * sin};
@@ -42,13 +44,13 @@ UprightPlace SectionTurn::at(double phi) const {
 /// An edge on the bore is farther than the tip by the wall times the difference of the angle.
 double SectionTurn::turn_sag(const TorchReach& reach, const TorchPlace& from,
                              const TorchPlace& to) const {
-  const auto a = at(from.phi), b = at(to.phi);
+  const auto a = at(from.phi, from.on_flat), b = at(to.phi, to.on_flat);
   double most = 0.0;
   for (const double share : {0.25, 0.5, 0.75}) {
     const auto mixed = [&](double x, double y) { return x + share * (y - x); };
     const UprightPlace straight{mixed(a.angle, b.angle), mixed(a.across, b.across),
                                 mixed(a.out, b.out)};
-    const auto exact = at(mixed(from.phi, to.phi));
+    const auto exact = at(mixed(from.phi, to.phi), from.on_flat);
     const double wall = reach.outer_radius - reach.inner_radius;
     most = std::max(
         most, (tip(straight) - tip(exact)).norm() + wall * std::abs(straight.angle - exact.angle));

@@ -9,6 +9,7 @@ namespace tubecut::api {
 /// round the tube, tan b along it). mm, rad.
 struct TorchPlace {
   double phi = 0.0, z = 0.0, b = 0.0, a = 0.0;
+  bool on_flat = false;  // of a section: the torch keeps the normal of the flat
 };
 
 /// The wall that is cut, and how far the point that the linear axes carry is behind the tip.

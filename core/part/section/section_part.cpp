@@ -17,6 +17,8 @@ namespace {
 
 using bevel::SectionTable;
 
+constexpr double kHoleTolerance = 0.01;  // mm: a bolt hole stays round, however coarse the ends are
+
 Edge outer_edge(const SectionTable& t) { return edge_over_girth(t, t.z_outer); }
 Edge inner_edge(const SectionTable& t) { return edge_over_girth(t, t.z_inner); }
 
@@ -154,7 +156,7 @@ cutout::Ground cutout_ground(const SectionPartSpec& spec, const SectionPart& par
           .finish_long = highest(part.finish.table),
           .finish_work = work + spec.length,
           .kerf = spec.cutouts.kerf,
-          .tolerance = spec.cutouts.tolerance};
+          .tolerance = std::min(spec.cutouts.tolerance, kHoleTolerance)};
 }
 
 Result<SectionPart> section_part(const SectionPartSpec& spec, const std::stop_token& stop) {
