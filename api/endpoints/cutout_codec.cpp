@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "api/endpoints/section_bevel_table.hpp"
 #include "api/limits.hpp"
 #include "api/wire/bevel_names.hpp"
 #include "api/wire/cutout_names.hpp"
@@ -121,15 +122,6 @@ void decode_shape(Reader& in, const Common& common, cutout::Lay lay, cutout::Spe
   }
 }
 
-/// A field of the other kind of tube, or of another choice.
-void refuse(Reader& in, std::string_view name, const std::string& hint) {
-  in.note(name);
-  if (in.has(name))
-    in.issue(
-        {.code = ErrorCode::unsupported_combination, .pointer = std::string(name), .hint = hint},
-        in.find(name));
-}
-
 /// A place round a tube whose kind is unknown, because its own fields were refused: one of those
 /// that the contract has.
 void decode_anywhere(Reader& in) {
@@ -139,7 +131,7 @@ void decode_anywhere(Reader& in) {
     in.optional_number("offset_mm");
     return;
   }
-  refuse(in, "offset_mm", "goes with face");
+  refuse_fields(in, {"offset_mm"}, "goes with face");
   if (which) in.number(*which == 0 ? "phi_deg" : "girth_mm");
 }
 
@@ -151,11 +143,11 @@ void note_places(Reader& in) {
 }
 
 void decode_on_section(Reader& in, const Common& common, cutout::Anchor& out) {
-  refuse(in, "phi_deg", std::string(kRoundTube) + "give face and offset_mm, or girth_mm");
+  refuse_fields(in, {"phi_deg"}, std::string(kRoundTube) + "give face and offset_mm, or girth_mm");
   if (in.has("phi_deg")) return note_places(in);
   const auto which = in.exactly_one({"face", "girth_mm"});
   if (which && *which == 1) {
-    refuse(in, "offset_mm", "goes with face");
+    refuse_fields(in, {"offset_mm"}, "goes with face");
     out.phi = in.number("girth_mm", kPlace) / common.radius();
     return;
   }
@@ -181,16 +173,13 @@ cutout::Anchor decode_anchor(Reader& in, const Common& common) {
     decode_on_section(in, common, out);
     return out;
   }
-  in.note("face");
   if (in.has("face")) {
     in.note("offset_mm");
-    in.issue({.code = ErrorCode::unsupported_combination,
-              .pointer = "face",
-              .hint = "a round tube has no faces; give phi_deg or girth_mm"},
-             in.find("face"));
+    refuse_fields(in, {"face"}, "a round tube has no faces; give phi_deg or girth_mm");
     return out;
   }
-  refuse(in, "offset_mm", "goes with face, which a round tube does not have");
+  in.note("face");
+  refuse_fields(in, {"offset_mm"}, "goes with face, which a round tube does not have");
   if (const auto which = in.exactly_one({"phi_deg", "girth_mm"}))
     out.phi = *which == 0 ? in.angle("phi_deg", kAnyAngleDeg).rad()
                           : in.number("girth_mm", kPlace) / common.radius();
@@ -204,7 +193,8 @@ std::optional<double> decode_turn(Reader& in, const Common& common, bool require
   if (round)
     in.note("pitch_deg");
   else
-    refuse(in, "pitch_deg", std::string(kRoundTube) + "give pitch_round_mm, or pattern faces");
+    refuse_fields(in, {"pitch_deg"},
+                  std::string(kRoundTube) + "give pitch_round_mm, or pattern faces");
   if (!round && in.has("pitch_deg")) return std::nullopt;
   const bool by_angle = round && in.has("pitch_deg");
   if (!required && !by_angle && !in.has("pitch_round_mm")) return std::nullopt;
@@ -238,11 +228,8 @@ cutout::Grid decode_grid(Reader& in, const Common& common) {
   if (out.stagger != Stagger::none) {
     const double half = 0.5 * (along ? out.pitch : out.turn * common.radius());
     out.offset = in.number("stagger_mm", kPlace, half) / (along ? 1.0 : common.radius());
-  } else if (in.has("stagger_mm")) {
-    in.issue({.code = ErrorCode::unsupported_combination,
-              .pointer = "stagger_mm",
-              .hint = "goes with stagger along or round"},
-             in.find("stagger_mm"));
+  } else {
+    refuse_fields(in, {"stagger_mm"}, "goes with stagger along or round");
   }
   return out;
 }

@@ -133,36 +133,17 @@ std::string opening(const CutOutline& hole, double bevel_deg, const std::stop_to
   return out;
 }
 
-std::string wall_words(cutout::Lay lay) {
-  switch (lay) {
-    case cutout::Lay::developed:
-      return "square to the tube";
-    case cutout::Lay::prism:
-      return "its walls parallel";
-    case cutout::Lay::bored:
-      return "square to the tube, a straight tool passes";
-    case cutout::Lay::flat:
-      return "square to the face";
-  }
-  return {};
-}
-
 /// A circle that goes straight through as a bore where a drill makes it; else its outer edge.
 std::string cutout_block(const part::PartSpec& spec, const part::Part& part, std::size_t index,
                          const CutOutline& cut, const std::stop_token& stop) {
-  constexpr double kLargestBore = 200.0;  // mm
   const auto& one = part.cutouts.instances[index];
   const auto& mould = part.cutouts.mould_of(one);
   const auto& asked = spec.cutouts.all[one.asked];
-  const auto* circle = std::get_if<cutout::Circle>(&asked.shape);
-  auto out =
-      dstv_comment("cut-out " + dstv_text(cut.label) + ", " + wall_words(mould.laying.lay()));
-  if (circle == nullptr || asked.wall == cutout::Wall::developed || circle->diameter > kLargestBore)
-    return out + opening(cut, 0.0, stop);
+  const auto out = dstv_cutout_title(cut.label, mould.laying.lay());
+  const auto diameter = dstv_bore_diameter(asked);
+  if (!diameter || asked.wall == cutout::Wall::developed) return out + opening(cut, 0.0, stop);
   const double middle = turned_from(0.0, one.phi + mould.laying.phase(0.0));
-  return out + "BO\r\n  v" + dstv_field(one.z) + "u" +
-         dstv_field(up(spec.target.outer_radius, middle)) + dstv_field(circle->diameter) +
-         dstv_field(0.0) + "\r\n";
+  return out + dstv_bore("v", one.z, up(spec.target.outer_radius, middle), *diameter);
 }
 
 }  // namespace

@@ -79,4 +79,38 @@ std::optional<double> one_bevel(const std::vector<double>& b) {
   return (least + most) / 2.0 * kDegPerRad;
 }
 
+namespace {
+
+std::string wall_words(cutout::Lay lay) {
+  switch (lay) {
+    case cutout::Lay::developed:
+      return "square to the tube";
+    case cutout::Lay::prism:
+      return "its walls parallel";
+    case cutout::Lay::bored:
+      return "square to the tube, a straight tool passes";
+    case cutout::Lay::flat:
+      return "square to the face";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string dstv_cutout_title(const std::string& name, cutout::Lay lay) {
+  return dstv_comment("cut-out " + dstv_text(name) + ", " + wall_words(lay));
+}
+
+std::optional<double> dstv_bore_diameter(const cutout::Spec& cutout) {
+  constexpr double kLargest = 200.0;  // mm
+  const auto* circle = std::get_if<cutout::Circle>(&cutout.shape);
+  if (circle == nullptr || circle->diameter > kLargest) return {};
+  return circle->diameter;
+}
+
+std::string dstv_bore(std::string_view face, double x, double y, double diameter) {
+  return "BO\r\n  " + std::string(face) + dstv_field(x) + "u" + dstv_field(y) +
+         dstv_field(diameter) + dstv_field(0.0) + "\r\n";
+}
+
 }  // namespace tubecut::api

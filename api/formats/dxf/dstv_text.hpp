@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/wire/format.hpp"
+#include "core/cutout/cutout.hpp"
 
 namespace tubecut::api {
 
@@ -55,5 +56,12 @@ struct DstvProfile {
                                      bool first);
 /// Returns the bevel in degrees if the whole cut has the same.
 [[nodiscard]] std::optional<double> one_bevel(const std::vector<double>& b);
+
+/// Returns the comment that names a cut-out and states how its wall stands.
+[[nodiscard]] std::string dstv_cutout_title(const std::string& name, cutout::Lay lay);
+/// Returns the diameter of a circle that a drill makes; empty for any other shape.
+[[nodiscard]] std::optional<double> dstv_bore_diameter(const cutout::Spec& cutout);
+/// Returns the block of a bore through one wall.
+[[nodiscard]] std::string dstv_bore(std::string_view face, double x, double y, double diameter);
 
 }  // namespace tubecut::api

@@ -89,7 +89,6 @@ std::string outline(const section::Curve& outer, const NcFace& face, const part:
 /// A circle as a bore; else the edge, run against the outline of its face.
 std::string cutout_block(const part::SectionPartSpec& spec, const part::SectionPart& part,
                          std::size_t index, const std::stop_token& stop) {
-  constexpr double kLargestBore = 200.0;  // mm
   const auto& layout = part.cutouts;
   const auto& one = layout.instances[index];
   const auto& asked = spec.cutouts.all[one.asked];
@@ -100,13 +99,10 @@ std::string cutout_block(const part::SectionPartSpec& spec, const part::SectionP
     const auto p = outer.at(phi / kTwoPi * outer.girth()).point;
     return NcPoint{z, half + (face.across_height ? p.x() : p.y())};
   };
-  auto out =
-      dstv_comment("cut-out " + dstv_text(cutout_tag(layout, index)) + ", square to the face");
-  const auto* circle = std::get_if<cutout::Circle>(&asked.shape);
-  if (circle != nullptr && circle->diameter <= kLargestBore) {
+  auto out = dstv_cutout_title(cutout_tag(layout, index), layout.mould_of(one).laying.lay());
+  if (const auto diameter = dstv_bore_diameter(asked)) {
     const auto at = point(one.phi + layout.mould_of(one).laying.phase(0.0), one.z);
-    return out + "BO\r\n  " + face.name + dstv_field(at.x) + "u" + dstv_field(at.y) +
-           dstv_field(circle->diameter) + dstv_field(0.0) + "\r\n";
+    return out + dstv_bore(face.name, at.x, at.y, *diameter);
   }
   const auto rows = cutout::placed(layout, one);
   std::vector<NcPoint> line;
