@@ -8,6 +8,7 @@
 #include "api/formats/bevel_table_formats.hpp"
 #include "api/wire/bevel_names.hpp"
 #include "api/wire/cutout_names.hpp"
+#include "api/wire/joint_names.hpp"
 #include "api/wire/section_tables.hpp"
 #include "api/wire/tables.hpp"
 #include "core/math/rotation.hpp"
@@ -46,11 +47,26 @@ void encode_instance(const CutoutsOfPart& part, const cutout::Instance& one, con
   o.field("girth_to_mm", radius * (one.phi + reach.phi_to + turn));
 }
 
+/// Writes the requested hole that a cut-out is, and how far its edges are from the branch.
+void encode_hole_of(const part::HoleCutout& one, Writer& w) {
+  const auto& branch = one.hole.branch;
+  w.object("hole", [&](Writer& o) {
+    o.field("index", one.hole.asked);
+    o.field("branch", one.hole.name);
+    o.field("kind", name_of(branch.kind));
+    if (branch.kind == joint::JointKind::set_on) return;
+    o.field("gap_mm", branch.gap);
+    o.field("greatest_gap_mm", one.greatest_gap);
+  });
+}
+
 void encode_group(const CutoutsOfPart& part, const std::vector<std::size_t>& group, Writer& o) {
   const auto& layout = part.layout;
   const auto& first = layout.instances[group.front()];
   const auto& mould = layout.mould_of(first);
   o.field("id", part.specs.all[first.asked].id);
+  for (const auto& one : part.specs.holes)
+    if (one.cutout == first.asked) encode_hole_of(one, o);
   o.field("side", mould.laying.far() ? "far" : "near");
   o.field("wall", name_of(mould.laying.lay()));
   o.object("points", [&](Writer& p) {
@@ -166,6 +182,9 @@ std::vector<Measure> measures_of_cutouts(const CutoutsOfPart& part, bool seam_kn
     if (*web) out.push_back({"min_web_mm", (*web)->width});
   if (report.to_end) out.push_back({"min_hole_to_end_mm", report.to_end->width});
   if (seam_known && report.to_seam) out.push_back({"min_seam_to_hole_mm", report.to_seam->girth});
+  for (const auto& one : part.specs.holes)
+    if (one.hole.branch.kind != joint::JointKind::set_on)
+      out.push_back({"max_root_gap_mm", one.greatest_gap});
   for (const auto& one : part.specs.all)
     if (const auto size = cutout::least_size(one.shape)) {
       out.push_back({"min_diameter_mm", *size});

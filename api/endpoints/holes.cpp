@@ -30,11 +30,12 @@ constexpr Range kComponent{.min = -1e6, .max = 1e6};
 HoleBranch decode_hole_branch(Reader& in) {
   HoleBranch out{.name = in.optional_text("id").value_or("")};
   if (in.find("kind") != nullptr)
-    in.issue({.code = ErrorCode::unsupported_combination,
-              .pointer = "kind",
-              .hint = "a branch is a round tube; a slot, a rectangle or a contour is one of the "
-                      "cutouts of /v1/parts"},
-             in.find("kind"));
+    in.issue(
+        {.code = ErrorCode::unsupported_combination,
+         .pointer = "kind",
+         .hint = "a branch here is a round tube; holes for rectangular_tube and flat_oval_tube "
+                 "are cut by /v1/parts and /v1/frames, slots and contours as cutouts"},
+        in.find("kind"));
   const auto size = decode_tube_section(in, true);
   out.wall = size.wall;
   const auto which = in.exactly_one({"inclination_deg", "axis"});

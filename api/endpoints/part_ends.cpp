@@ -1,5 +1,6 @@
 #include "api/endpoints/part_ends.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "api/endpoints/bevel_table_codec.hpp"
@@ -13,13 +14,16 @@ namespace {
 constexpr auto kMostCutters = static_cast<std::size_t>(limit::cutters_max);
 constexpr Range kGap{.min = 0.0, .max = 50.0};
 
-/// A partner is set into at most its radius; a rectangular tube, a cone or an elbow not at all.
+/// A partner is set into at most its radius or half its smaller side; a cone or an elbow not at
+/// all.
 double deepest_of(const joint::Partner& partner) {
   struct Of {
     double operator()(const joint::TubeCutter& t) const { return t.radius; }
     double operator()(const joint::AxisTube& t) const { return t.radius; }
     double operator()(const joint::PlaneCutter&) const { return 0.0; }
-    double operator()(const joint::RectangularTubeCutter&) const { return 0.0; }
+    double operator()(const joint::RectangularTubeCutter& t) const {
+      return 0.5 * std::min(t.width, t.height);
+    }
     double operator()(const joint::ConeCutter&) const { return 0.0; }
     double operator()(const joint::ElbowCutter&) const { return 0.0; }
   };

@@ -1,6 +1,8 @@
 #include "api/endpoints/part_request.hpp"
 
+#include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "api/endpoints/bevel_table_codec.hpp"
@@ -11,9 +13,11 @@
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/part_ends.hpp"
 #include "api/endpoints/section_bevel_table.hpp"
+#include "api/endpoints/square_hole.hpp"
 #include "api/limits.hpp"
 #include "api/wire/part_names.hpp"
 #include "core/base/try.hpp"
+#include "core/part/square_holes.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -79,17 +83,21 @@ bevel::HoleSpec hole_options(const bevel::TableSpec& once) {
   return out;
 }
 
+double half_side(const SectionTarget& of) {
+  return 0.5 * std::min(of.section.height, of.section.width);
+}
+
 /// Refuses the fields of a round part. The datum line of another is the middle of face 1.
 void refuse_round_part(Reader& in, Preset preset) {
   constexpr std::string_view kRoundOnly = "requires a round target";
   in.choice("datum", kOnly<Datum::up>, Datum::up);
-  refuse_fields(in, {"holes", "seam_deg"}, kRoundOnly);
+  refuse_fields(in, {"seam_deg"}, kRoundOnly);
   if (preset == Preset::tube_laser) refuse_limit(in, "min_tongue_mm", kRoundOnly);
-  if (preset == Preset::tube_laser && !in.has("cutouts"))
+  const bool open = in.has("cutouts") || in.has("holes");
+  if (preset == Preset::tube_laser && !open)
     for (const auto name : {"min_web_mm", "min_hole_to_end_mm"})
-      refuse_limit(in, name, "requires cutouts, or a round target");
-  if (preset == Preset::tube_laser || in.has("cutouts"))
-    refuse_limit(in, "min_seam_to_hole_mm", kRoundOnly);
+      refuse_limit(in, name, "requires cutouts or holes, or a round target");
+  if (preset == Preset::tube_laser || open) refuse_limit(in, "min_seam_to_hole_mm", kRoundOnly);
 }
 
 void decode_member(Reader& in, PartRequest& out) {
@@ -114,18 +122,18 @@ void decode_member(Reader& in, PartRequest& out) {
   }
   decode_cut(in, false, out.preset, m.cut);
   decode_once(in, out.preset, m.cut);
-  if (out.section) {
-    out.part.cutouts = decode_cutouts(in, out.preset, m.cut, &out.section->section, sure);
-    return refuse_round_only(in, m.cut);
-  }
-  if (found) {
-    const auto& own = m.node.members[m.member];
-    m.cut.target = {.outer_radius = own.outer_radius, .wall = own.wall};
-  }
-  out.part.cutouts = decode_cutouts(in, out.preset, m.cut, nullptr, sure);
+  const auto* own = found ? &m.node.members[m.member] : nullptr;
+  if (out.section)
+    refuse_round_only(in, m.cut);
+  else if (own != nullptr)
+    m.cut.target = {.outer_radius = own->outer_radius, .wall = own->wall};
+  out.part.cutouts =
+      decode_cutouts(in, out.preset, m.cut, out.section ? &out.section->section : nullptr, sure);
   in.note("holes");
   if (!in.has("holes")) return;
-  const double radius = found ? m.node.members[m.member].outer_radius : kDiameter.min;
+  const double half = out.section      ? half_side(*out.section)
+                      : own != nullptr ? own->outer_radius
+                                       : kDiameter.min;
   in.array("holes", kHoles, [&](Reader& h) {
     auto hole = hole_options(m.cut);
     const auto branch = h.text("member");
@@ -138,8 +146,10 @@ void decode_member(Reader& in, PartRequest& out) {
     // Members that are refused may be those that state it.
     static constexpr joint::Joint kUnknown{};
     const auto* stated = joint::stated_joint(m.node, m.member, other);
-    decode_hole_cut(h, radius, stated == nullptr && h.refused() ? &kUnknown : stated, out.preset,
-                    hole);
+    const bool square =
+        out.section || (other < m.node.members.size() && m.node.members[other].section);
+    decode_hole_cut(h, half, stated == nullptr && h.refused() ? &kUnknown : stated,
+                    square ? Preset::tube_laser : out.preset, hole);
     m.holes.push_back({std::move(hole), other});
     return 0;
   });
@@ -187,11 +197,17 @@ void decode_section_part(Reader& in, PartRequest& out) {
   decode_part_target(in, out.part.name);
   refuse_round_part(in, out.preset);
   bevel::TableSpec once;
+  std::size_t count = 0;
   once.target = target_of(*out.section);
   decode_once(in, out.preset, once);
   decode_ends(in, once, out);
   out.part.cutouts =
       decode_cutouts(in, out.preset, once, &out.section->section, in.sound("target"));
+  in.note("holes");
+  if (in.has("holes"))
+    out.part.square_holes = in.array("holes", kHoles, [&](Reader& h) {
+      return decode_square_hole(h, half_side(*out.section), count++);
+    });
   out.of_section.partners = decode_section_marks(in, out.section->section.outer().girth());
 }
 
@@ -210,14 +226,20 @@ void decode_direct(Reader& in, PartRequest& out) {
   p.cutouts = decode_cutouts(in, out.preset, once, nullptr, in.sound("target"));
   in.note("holes");
   if (!in.has("holes")) return;
+  std::size_t count = 0;
   in.array("holes", kHoles, [&](Reader& h) {
+    const auto asked = count++;
+    if (has_section_branch(h)) {
+      p.square_holes.push_back(decode_square_hole(h, p.target.outer_radius, asked));
+      return 0;
+    }
     auto hole = hole_options(once);
     hole.chord = {.outer_radius = p.target.outer_radius, .wall = p.target.wall};
     const auto branch = h.object("branch", decode_hole_branch);
     hole.branch = branch.placement;
     hole.branch_wall = branch.wall;
     decode_hole_cut(h, p.target.outer_radius, nullptr, out.preset, hole);
-    p.holes.push_back({std::move(hole), branch.name, p.holes.size()});
+    p.holes.push_back({std::move(hole), branch.name, asked});
     return 0;
   });
 }
@@ -236,6 +258,15 @@ Renamings renamings(const PartRequest& r) {
     const auto at = "holes/" + std::to_string(hole.asked) + "/";
     add_once(at, false, out);
     if (r.member) out.push_back({at + "branch", at + "member", false});
+  }
+  const auto* branch = r.member ? "/member" : "/branch";
+  const auto& cutouts = r.section ? r.of_section.cutouts : r.part.cutouts;
+  for (const auto& one : cutouts.holes)
+    out.push_back(
+        {cutout::path_of(one.cutout), "holes/" + std::to_string(one.hole.asked) + branch, false});
+  for (const auto& one : r.part.square_holes) {
+    const auto at = "holes/" + std::to_string(one.asked);
+    if (r.member) out.push_back({at + "/branch", at + branch, false});
   }
   for (const bool finish : {false, true}) {
     const auto at = std::string(joint::end_name(finish)) + "/";
@@ -302,10 +333,21 @@ part::SectionPartSpec section_part_of(const SectionTarget& target, const part::P
           .cutouts = part.cutouts};
 }
 
+/// Adds the square holes of a part to its cut-outs.
+Result<void> cut_square_holes(PartRequest& r) {
+  auto& p = r.part;
+  auto added = part::add_square_holes(p.square_holes, p.target,
+                                      r.section ? std::optional(r.section->section) : std::nullopt,
+                                      p.zero, p.cutouts);
+  if (added) return {};
+  return tl::unexpected(on_request(r, std::move(added).error()));
+}
+
 }  // namespace
 
 Result<PartRequest> resolve(PartRequest r, const std::stop_token& stop) {
   if (r.section && !r.member) {
+    TRY(cut_square_holes(r));
     auto marks = std::move(r.of_section.partners);
     r.of_section = section_part_of(*r.section, r.part);
     r.of_section.length = r.section->length.value_or(0.0);
@@ -316,6 +358,7 @@ Result<PartRequest> resolve(PartRequest r, const std::stop_token& stop) {
     TRY(const auto zero,
         part::datum_angle(r.datum, r.seam, r.part.start.cut.partners, r.part.finish.cut.partners));
     r.part.zero = zero;
+    TRY(cut_square_holes(r));
     return r;
   }
   r.member->clamping = r.part.clamping;
@@ -330,6 +373,7 @@ Result<PartRequest> resolve(PartRequest r, const std::stop_token& stop) {
   r.start_ids = names(r.member->node, r.start_cutters);
   r.finish_ids = names(r.member->node, r.finish_cutters);
   r.warnings = std::move(found.warnings);
+  TRY(cut_square_holes(r));
   if (r.section) {
     r.of_section = section_part_of(*r.section, r.part);
     r.of_section.length = *r.part.target.length;

@@ -52,6 +52,7 @@ struct Parts {
       {"hole_left_stated", "max(5e-3, 0.02 left_mm)", "mm"},
       {"cutout_edge", "1e-9", "mm"},
       {"cutout_gouge", "0.01", "mm"},
+      {"square_hole_gap", "1e-3", "mm"},
       {"cutout_volume", "1e-9, of itself", ""},
       {"on_section", "1e-9", "mm"},
       {"placed", "1e-9 max(1, 1e-3 (radius + length))", "mm"},

@@ -192,26 +192,6 @@ Result<void> settle(const FrameSpec& spec, Joined& joined) {
   return {};
 }
 
-/// Refuses holes in a member that is not round, and holes for one.
-Result<void> check_sections(const FrameSpec& spec, const Joined& joined) {
-  for (const auto& one : joined.joints) {
-    if (one.other) continue;
-    const bool hole = one.how.hole || one.how.kind == How::Kind::through;
-    const auto refuse = [&](std::size_t member, const std::string& why) {
-      return fail({.code = ErrorCode::unsupported_target,
-                   .member = "members/" + std::to_string(member),
-                   .limit = std::string("round"),
-                   .unit = {},
-                   .hint = why + "; join the two set_on, with hole none"});
-    };
-    if (hole && spec.members[one.chord].section)
-      return refuse(one.chord, "the joint cuts a hole into this member");
-    if (hole && spec.members[one.branch].section)
-      return refuse(one.branch, "the joint cuts a hole for this member");
-  }
-  return {};
-}
-
 std::vector<NotCut> not_cut(const FrameSpec& spec, const Joined& joined) {
   std::vector<NotCut> out;
   std::set<std::string> parallel;
@@ -282,6 +262,13 @@ Result<std::vector<Warning>> warnings_of_others(const FrameSpec& spec, const Joi
 
 }  // namespace
 
+std::vector<std::size_t> round_holes(const std::vector<Hole>& holes) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < holes.size(); ++i)
+    if (!holes[i].square) out.push_back(i);
+  return out;
+}
+
 Result<End> detail::end_at(const FrameSpec& spec, std::size_t index) {
   const auto& said = spec.joints[index];
   if (said.end) return *said.end;
@@ -305,7 +292,6 @@ Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop) {
     TRY(joined.nodes, joint::solve(joined.node, stop));
   }
   TRY(settle(spec, joined));
-  TRY(check_sections(spec, joined));
   Frame out;
   TRY(out.pieces, detail::pieces(spec, joined, stop));
   out.not_cut = not_cut(spec, joined);

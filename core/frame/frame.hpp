@@ -84,11 +84,16 @@ struct Cutter {
 };
 /// A hole for a branch, which is given in the start's frame and points out of the chord.
 struct Hole {
-  joint::TubeCutter branch;
-  double wall = 0.0;  // of the branch
+  joint::TubeCutter branch;  // of one that is not round: half its larger side
+  double wall = 0.0;         // of the branch
   std::size_t member = 0, joint = 0;
   joint::End end = joint::End::start;  // of the branch; unused if it passes through
+  bool square = false;                 // branch or chord is not round: see part::SquareHole
+  joint::AxisLine axis = {};           // of the branch
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // of a branch that is not round
 };
+/// Returns the indices of a piece's holes between round tubes.
+[[nodiscard]] std::vector<std::size_t> round_holes(const std::vector<Hole>& holes);
 /// The position of a branch, in the start's frame: around the tube by phi, or along the girth of
 /// one that is not round.
 struct Stand {

@@ -264,9 +264,15 @@ Result<void> add_branches(const FrameSpec& spec, const Joined& joined, const joi
     if (!one.passes && on_tube) out.stands.push_back(stand);
     if (!how.hole) continue;
     const AxisLine axis{branch.at(one.end), branch.into(one.end)};
-    TRY(const auto at, under("members/" + std::to_string(one.member),
-                             joint::place(out.frame.local(axis), branch.outer_radius)));
-    out.holes.push_back({at.tube, branch.wall, one.member, one.joint, one.end});
+    const auto local = out.frame.local(axis);
+    TRY(const auto at,
+        under("members/" + std::to_string(one.member), joint::place(local, branch.half_size())));
+    Hole hole{at.tube, branch.thickness(), one.member, one.joint, one.end};
+    hole.square = chord.section.has_value() || branch.section.has_value();
+    const Vector3d along = local.direction.normalized();
+    hole.axis = {foot_on_line(local.point, along), along};
+    if (branch.up) hole.up = out.frame.rows * *branch.up;
+    out.holes.push_back(std::move(hole));
   }
   std::ranges::stable_sort(
       out.holes, {}, [](const Hole& h) { return order(h.branch.height, h.branch.clocking.rad()); });

@@ -155,7 +155,11 @@ class Proof {
     const auto at = seen(m, frame_.pieces[member], End::start);
     for (std::size_t k = 0; k < frame_.pieces[member].holes.size(); ++k) {
       const auto& hole = frame_.pieces[member].holes[k];
-      const auto& asked = asked_[member]->holes[k].hole;
+      if (hole.square) {
+        see_square_hole(at, member, k);
+        continue;
+      }
+      const auto& asked = std::ranges::find(asked_[member]->holes, k, &part::HoleSpec::asked)->hole;
       const auto& branch = spec_.members[hole.member];
       if (const auto* tube = std::get_if<joint::TubeCutter>(&asked.branch))
         worst_.axis.see(beside(axis_of(at, *tube), axis_of(branch), branch.at(hole.end),
@@ -164,6 +168,28 @@ class Proof {
       mates_[hole.joint].of_holes.push_back(
           {.kind = asked.kind, .gap = asked.gap, .depth = asked.depth});
     }
+  }
+
+  /// A hole whose wall is square: the branch's axis and where its height points.
+  void see_square_hole(const Seen& at, std::size_t member, std::size_t index) {
+    const auto& hole = frame_.pieces[member].holes[index];
+    const auto& branch = spec_.members[hole.member];
+    const auto& asked =
+        std::ranges::find(asked_[member]->square_holes, index, &part::SquareHole::asked)->branch;
+    const double reach = spec_.members[member].reach() + branch.reach();
+    const Line line{at.origin + at.axes * asked.axis.point,
+                    at.axes * asked.axis.direction.normalized()};
+    const double size = asked.axis.point.norm();
+    worst_.axis.see(beside(line, axis_of(branch), branch.at(hole.end), reach), size);
+    if (branch.section) {
+      const Vector3d across = axis_of(branch).unit.cross(*branch.up).normalized();
+      worst_.axis.see(reach * std::abs(across.dot(at.axes * asked.up.normalized())), size);
+    }
+    const auto& how = frame_.joints[hole.joint].how;
+    mates_[hole.joint].of_holes.push_back(
+        {.kind = asked.kind,
+         .gap = asked.gap,
+         .depth = asked.kind == joint::JointKind::set_in ? how.depth : std::nullopt});
   }
 
   void see_sides(std::size_t index) {

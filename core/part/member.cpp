@@ -108,6 +108,17 @@ SectionMark mark_of(const joint::Member& branch, joint::End end, const MemberFra
   return {Mark::Kind::partner, branch.name, outer.on_face(out, along), place.z(), place.z()};
 }
 
+cutout::Branch square_branch(const joint::Member& branch, joint::End end, const MemberFrame& frame,
+                             joint::JointKind kind, double gap) {
+  return {.section = branch.section,
+          .radius = branch.outer_radius,
+          .wall = branch.wall,
+          .axis = frame.local(AxisLine{branch.at(end), branch.into(end)}),
+          .up = frame.rows * branch.up.value_or(Vector3d::UnitZ()),
+          .kind = kind,
+          .gap = gap};
+}
+
 namespace {
 
 bool cut_by(const MemberEnd& end, std::size_t member) {
@@ -138,33 +149,32 @@ bevel::HoleSpec hole_for(bevel::HoleSpec hole, const joint::Target& chord,
   return hole;
 }
 
-Result<std::vector<HoleSpec>> holes(const MemberSpec& spec, const joint::NodeSpec& node,
-                                    const std::vector<Standing>& standing,
-                                    const joint::Target& chord, const MemberFrame& frame) {
-  std::vector<HoleSpec> out;
+Result<void> add_holes(const MemberSpec& spec, const joint::NodeSpec& node,
+                       const std::vector<Standing>& standing, const MemberFrame& frame,
+                       PartSpec& out) {
+  const bool round = !node.members[spec.member].section;
   for (std::size_t i = 0; i < spec.holes.size(); ++i) {
     const auto& [cut, member] = spec.holes[i];
     const auto& branch = node.members[member];
-    if (branch.section)
-      return fail({.code = ErrorCode::unsupported_target,
-                   .member = "members/" + std::to_string(member) + "/kind",
-                   .limit = std::string("round"),
-                   .unit = {},
-                   .hint = "holes are made for round branches"});
+    const auto add = [&](End end) {
+      if (round && !branch.section)
+        out.holes.push_back({hole_for(cut, out.target, branch, end, frame), branch.name, i});
+      else
+        out.square_holes.push_back(
+            {square_branch(branch, end, frame, cut.kind, cut.gap), branch.name, i});
+    };
     const bool through = cut.kind == bevel::JointKind::through;
-    const auto before = out.size();
-    if (through && member != spec.member)
-      out.push_back({hole_for(cut, chord, branch, End::start, frame), branch.name, i});
+    const auto before = out.holes.size() + out.square_holes.size();
+    if (through && member != spec.member) add(End::start);
     for (const auto& one : standing)
-      if (!through && one.member == member)
-        out.push_back({hole_for(cut, chord, branch, one.end, frame), branch.name, i});
-    if (out.size() == before)
+      if (!through && one.member == member) add(one.end);
+    if (out.holes.size() + out.square_holes.size() == before)
       return fail({.code = ErrorCode::no_contact,
                    .member = "holes/" + std::to_string(i) + "/member",
                    .got = branch.name,
                    .hint = "no end of this member is cut by the part"});
   }
-  return out;
+  return {};
 }
 
 bool is_hole_for(const bevel::HoleSpec& hole, const joint::Joint& joint) {
@@ -312,8 +322,7 @@ Result<FoundMember> find_member(const MemberSpec& spec, const std::stop_token& s
   }
   TRY(check_joints(spec, standing, out.warnings));
   warn_of_missing(spec, standing, out.warnings);
-  TRY(auto cut, holes(spec, node, standing, part.target, both.first));
-  part.holes = std::move(cut);
+  TRY(add_holes(spec, node, standing, both.first, part));
   part.clamping = spec.clamping;
   part.facing = spec.facing;
   part.density = spec.density;

@@ -38,6 +38,11 @@ enum class Datum {
 [[nodiscard]] SectionMark mark_of(const joint::Member& branch, joint::End end,
                                   const joint::MemberFrame& frame, const section::Curve& outer);
 
+/// Returns a member as the branch of a square hole. `frame`: of the part's start.
+[[nodiscard]] cutout::Branch square_branch(const joint::Member& branch, joint::End end,
+                                           const joint::MemberFrame& frame, joint::JointKind kind,
+                                           double gap);
+
 /// A hole for a member of the node: `cut` except chord and branch.
 struct BranchHole {
   bevel::HoleSpec cut;

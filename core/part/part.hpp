@@ -26,6 +26,7 @@
 #include "core/base/error.hpp"
 #include "core/bevel/hole/hole.hpp"
 #include "core/bevel/table/table.hpp"
+#include "core/cutout/branch_hole.hpp"
 #include "core/cutout/cutout.hpp"
 #include "core/joint/placement.hpp"
 #include "core/part/cutout_report.hpp"
@@ -57,9 +58,25 @@ struct Mark {
   double z_from = 0.0, z_to = 0.0;
 };
 
-/// Openings for no branch, and how they are cut.
+/// A hole that is cut as a cut-out, because the branch or the part is not round. The branch is
+/// given in the start's frame.
+struct SquareHole {
+  cutout::Branch branch;
+  std::string name = {};  // of the branch
+  std::size_t asked = 0;  // index of the caller's request: errors name holes/asked
+};
+
+/// The cut-out that a square hole has become; a branch that passes through makes two.
+struct HoleCutout {
+  std::size_t cutout = 0;  // index in CutoutSpecs::all
+  SquareHole hole;
+  double greatest_gap = 0.0;  // of its edges from the branch, mm
+};
+
+/// Openings for no branch and square holes, and how they are cut.
 struct CutoutSpecs {
   std::vector<cutout::Spec> all = {};
+  std::vector<HoleCutout> holes = {};
   double kerf = 0.0;
   double tolerance = 0.01;       // mm, of the straight ways from row to row
   double most_lean = 0.5 * kPi;  // rad, of the torch across
@@ -69,6 +86,7 @@ struct PartSpec {
   joint::Target target;  // its length, between the work points, is required
   EndSpec start, finish;
   std::vector<HoleSpec> holes;
+  std::vector<SquareHole> square_holes = {};  // those of `cutouts`, see add_square_holes
   CutoutSpecs cutouts = {};
   Angle zero = {};                      // the part's phi = 0, in the start's frame
   joint::MemberFrame start_frame = {};  // of the start, in the world; the identity if unknown

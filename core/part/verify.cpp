@@ -10,6 +10,7 @@
 #include "core/math/rotation.hpp"
 #include "core/part/hole_volume.hpp"
 #include "core/part/part.hpp"
+#include "core/part/square_holes.hpp"
 #include "core/part/worst_checks.hpp"
 
 namespace tubecut::part {
@@ -228,6 +229,7 @@ std::vector<Check> verify(const PartSpec& spec, const Part& part, const std::sto
   if (!part.cutouts.empty())
     for (auto& check : cutout::verify(part.cutouts, cutout_ground(spec, part)))
       out.push_back(std::move(check));
+  for (auto& check : verify_square_holes(spec, part)) out.push_back(std::move(check));
   const Vector3d start = spec.start_frame.rows * (part.frame.origin - spec.start_frame.origin);
   const double length = *spec.target.length;
   Eigen::Matrix3d over = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();

@@ -178,15 +178,6 @@ TEST(SectionMembers, AFrameMakesThePartsOfItsMembers) {
   EXPECT_EQ(text(chord, "request/target/size"), text(t_joint(), "members/0/size"));
 }
 
-TEST(SectionMembers, AFrameRefusesTheirHoles) {
-  auto joint = *api::parse(R"([{"between": ["brace", "chord"], "kind": "set_in"}])");
-  EXPECT_EQ(refusal(with(frame(), "joints", joint), "/members/0", "/v1/frames"),
-            "unsupported_target");
-  joint = *api::parse(R"([{"between": ["brace", "chord"], "kind": "set_on", "hole": "cut"}])");
-  EXPECT_EQ(refusal(with(frame(), "joints", joint), "/members/0", "/v1/frames"),
-            "unsupported_target");
-}
-
 /// The post as a part: its end as its table, moved to its long point; the brace's mark on it.
 TEST(SectionMembers, ArePartsWithTheTablesOfTheirEnds) {
   auto part = at(end_of("post"), "node");

@@ -83,9 +83,14 @@ void add_holes(const FrameJob& frame, const MadeParts& made, std::size_t member,
   for (const auto& hole : piece.holes)
     seams[hole.joint].whole = seams[hole.joint].whole && part.made != nullptr;
   if (!part.made) return;
+  const auto round = frame::round_holes(piece.holes);
+  const auto asked =
+      frame::round_holes(frame.frame.pieces[frame.parts[frame.part_of[member]].by].holes);
   for (const auto& placed : part.made->out.holes) {
-    const auto at = std::ranges::find(frame.laid[member].holes, placed.asked);
-    const auto own = static_cast<std::size_t>(at - frame.laid[member].holes.begin());
+    const auto of_part =
+        static_cast<std::size_t>(std::ranges::find(asked, placed.asked) - asked.begin());
+    const auto at = std::ranges::find(frame.laid[member].holes, of_part);
+    const auto own = round[static_cast<std::size_t>(at - frame.laid[member].holes.begin())];
     const auto joint = piece.holes[own].joint;
     auto& seam = seams[joint];
     const auto& fit = placed.hole.fit;
@@ -96,11 +101,32 @@ void add_holes(const FrameJob& frame, const MadeParts& made, std::size_t member,
         std::max(seam.greatest_root.value_or(fit.greatest_root_between), fit.greatest_root_between);
   }
 }
+/// Adds holes that are cut-outs. Their part is made for members as they stand, so that its holes
+/// are those of each member.
+void add_square_holes(const FrameJob& frame, const MadeParts& made, std::size_t member,
+                      std::vector<Seam>& seams) {
+  const auto& part = made[frame.part_of[member]];
+  if (!part.made) return;
+  const auto& spec = part.made->spec;
+  const auto& section = part.made->out.of_section;
+  const auto& specs = section ? spec.of_section.cutouts : spec.part.cutouts;
+  const auto& layout = section ? section->cutouts : part.made->out.cutouts;
+  for (const auto& one : specs.holes) {
+    const auto& branch = one.hole.branch;
+    if (branch.kind == joint::JointKind::set_on) continue;
+    auto& seam = seams[frame.frame.pieces[member].holes[one.hole.asked].joint];
+    for (const auto& instance : layout.instances)
+      if (instance.asked == one.cutout) seam.weld += layout.mould_of(instance).rows.length_total;
+    seam.least_gap = std::min(seam.least_gap.value_or(branch.gap), branch.gap);
+    seam.greatest_root = std::max(seam.greatest_root.value_or(one.greatest_gap), one.greatest_gap);
+  }
+}
 std::vector<Seam> seams_of(const FrameJob& frame, const MadeParts& made) {
   std::vector<Seam> seams(frame.frame.joints.size());
   for (std::size_t i = 0; i < frame.spec.members.size(); ++i) {
     add_ends(frame, made, i, seams);
     add_holes(frame, made, i, seams);
+    add_square_holes(frame, made, i, seams);
   }
   return seams;
 }

@@ -198,25 +198,48 @@ class PartWriter {
     return Json{std::move(out)};
   }
 
+  /// Returns the branch of a hole with its size and position.
+  [[nodiscard]] Json branch_of(const frame::Hole& hole, const Names& names) const {
+    Json::Object out{{"id", Json{names.of_members[hole.member]}}};
+    if (is_section(hole.member)) {
+      for (const auto& field : request_.sections[hole.member]) out.push_back(field);
+      out.emplace_back("axis", written::axis(hole.axis.point, hole.axis.direction));
+      out.emplace_back("up", written::direction(hole.up));
+      return Json{std::move(out)};
+    }
+    for (auto& field : written::Fields{}(hole.branch)) out.push_back(std::move(field));
+    out.insert(out.begin() + 2, {"wall_mm", Json{request_.walls[hole.member]}});
+    return Json{std::move(out)};
+  }
+
   [[nodiscard]] Result<Json> holes(const frame::Piece& piece, const Names& names) const {
     Json::Array out;
     for (const auto& hole : piece.holes) {
       const auto& how = frame_.joints[hole.joint].how;
-      auto branch = written::Fields{}(hole.branch);
-      branch.emplace(branch.begin(), "id", Json{names.of_members[hole.member]});
-      branch.insert(branch.begin() + 2, {"wall_mm", Json{request_.walls[hole.member]}});
       Json::Object joint{{"kind", Json{std::string(name_of(how.kind))}}, {"gap_mm", Json{how.gap}}};
       if (how.kind == frame::How::Kind::set_in && how.depth)
         joint.emplace_back("depth_mm", Json{*how.depth});
-      TRY(auto groove, hole_groove(hole));
       const auto* own = said(hole.joint);
-      const auto& tilt = own != nullptr && !(own->tilt == Json{}) ? own->tilt : request_.tilt;
-      out.emplace_back(Json::Object{{"branch", Json{std::move(branch)}},
-                                    {"joint", Json{std::move(joint)}},
-                                    {"groove", std::move(groove)},
-                                    {"tilt", tilt}});
+      Json::Object one{{"branch", branch_of(hole, names)}, {"joint", Json{std::move(joint)}}};
+      if (hole.square) {
+        add_own_cut(own, how, one);
+      } else {
+        TRY(auto groove, hole_groove(hole));
+        one.emplace_back("groove", std::move(groove));
+        one.emplace_back("tilt",
+                         own != nullptr && !(own->tilt == Json{}) ? own->tilt : request_.tilt);
+      }
+      out.emplace_back(std::move(one));
     }
     return Json{std::move(out)};
+  }
+
+  /// A square hole takes nothing of the defaults; what its own joint states is refused by the part.
+  static void add_own_cut(const OwnCut* own, const frame::How& how, Json::Object& out) {
+    if (own == nullptr) return;
+    const bool of_end = how.kind == frame::How::Kind::set_on;
+    if (!of_end && !(own->groove == Json{})) out.emplace_back("groove", own->groove);
+    if (!(own->tilt == Json{})) out.emplace_back("tilt", own->tilt);
   }
 
   /// Set on: that of the branch's end.

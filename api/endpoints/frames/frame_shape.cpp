@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/endpoints/section_target.hpp"
 #include "api/wire/writer.hpp"
 
 namespace tubecut::api {
@@ -72,8 +73,15 @@ frame::Shape shape_of(const Json& part) {
   if (const auto* marks = part.find("marks"))
     for (const auto& one : *marks->as<Json::Array>()) out.marks.push_back(text(*one.find("text")));
   if (const auto* holes = part.find("holes"))
-    for (const auto& one : *holes->as<Json::Array>())
-      out.holes.push_back(partner_key(*one.find("branch")) + dump(without(one, kBranch)));
+    for (const auto& one : *holes->as<Json::Array>()) {
+      const auto& branch = *one.find("branch");
+      if (is_section(*part.find("target")) || is_section(branch)) {  // it becomes a cut-out
+        out.key += dump(one);
+        out.has_cutouts = true;
+        continue;
+      }
+      out.holes.push_back(partner_key(branch) + dump(without(one, kBranch)));
+    }
   return out;
 }
 

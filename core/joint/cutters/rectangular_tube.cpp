@@ -1,6 +1,7 @@
 #include "core/joint/cutters/rectangular_tube.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
@@ -13,6 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double kSeam = 1e-12;    // relative; where two surfaces meet tangentially, both are valid
 constexpr double kUpright = 1e-9;  // a steeper face is met only at its corners
+constexpr double kLeastCorner = 1e-3;  // mm, of a surface moved inwards by more than its corner
 
 /// The section of prism and generator in the plane across the axis.
 struct CrossSection {
@@ -118,7 +120,7 @@ Result<PreparedRectangularTube> RectangularTubeCutter::prepare() const {
 void RectangularTubeCutter::grow(double by) {
   width += 2.0 * by;
   height += 2.0 * by;
-  corner += by;
+  corner = std::max(corner + by, std::min(corner, kLeastCorner));
 }
 
 void RectangularTubeCutter::turn(const TurnAboutAxis& turn) {

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/part/section/section_part.hpp"
 #include "core/part/section/section_strips.hpp"
+#include "core/part/square_holes.hpp"
 #include "core/part/worst_checks.hpp"
 
 namespace tubecut::part {
@@ -17,11 +18,11 @@ using bevel::SectionSurface;
 using bevel::SectionTable;
 using Eigen::Vector3d;
 
-constexpr double kPlaced = 1e-9;  // mm
-constexpr double kVolume = 1e-9;  // relative
+constexpr double kPlacedOff = 1e-9;  // mm
+constexpr double kVolumeOff = 1e-9;  // relative
 
 /// Transforms from the part's frame to the end's own.
-struct RigidTransform {
+struct RigidMotion {
   Vector3d axes;  // of a half revolution about x, or none
   Vector3d shift;
   Vector3d operator()(const Vector3d& p) const { return axes.cwiseProduct(p) + shift; }
@@ -40,7 +41,7 @@ std::array<Vector3d, 5> row_in_space(const SectionTable& t, std::size_t i) {
 }
 
 /// Checks that every row of the part's table holds the points of a row of the end's own.
-double misplaced(const SectionEnd& end, bool finish, const RigidTransform& place,
+double misplaced(const SectionEnd& end, bool finish, const RigidMotion& place,
                  const std::stop_token& stop) {
   const auto n = end.own.at.size();
   if (end.table.at.size() != n) return 1.0;
@@ -148,7 +149,7 @@ std::vector<Check> verify(const SectionPartSpec& spec, const SectionPart& part,
   const section::Wall wall(spec.section);
   const double start =
       spec.start_frame.rows.row(2).dot(part.frame.origin - spec.start_frame.origin);
-  const double limit = kPlaced * std::max(1.0, 1e-3 * (wall.outer().reach() + spec.length));
+  const double limit = kPlacedOff * std::max(1.0, 1e-3 * (wall.outer().reach() + spec.length));
   double placed = 0.0;
   worsen(placed, misplaced(part.start, false, {{1.0, 1.0, 1.0}, {0.0, 0.0, start}}, stop));
   worsen(placed,
@@ -157,9 +158,11 @@ std::vector<Check> verify(const SectionPartSpec& spec, const SectionPart& part,
   if (!part.cutouts.empty())
     for (auto& check : cutout::verify(part.cutouts, cutout_ground(spec, part)))
       out.push_back(std::move(check));
+  for (auto& check : verify_square_holes(spec, part)) out.push_back(std::move(check));
   const double volume = volume_of(wall, part.finish, stop) - volume_of(wall, part.start, stop) -
                         cutout::volume_by_rings(part.cutouts);
-  out.push_back({"volume", std::abs(part.lengths.volume - volume) / std::abs(volume), kVolume, ""});
+  out.push_back(
+      {"volume", std::abs(part.lengths.volume - volume) / std::abs(volume), kVolumeOff, ""});
   out.push_back({"check_dimensions", faces_off(spec, part), limit, "mm"});
   return out;
 }

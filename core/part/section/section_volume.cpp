@@ -17,9 +17,9 @@ namespace {
 
 using bevel::SectionSurface;
 
-constexpr int kAlong = 6;     // Gauss points along a smooth strip
-constexpr int kAcross = 6;    // and across the wall, or a part of it
-constexpr int kPieces = 120;  // of the girth: a partner bends little over one
+constexpr int kPlacesAlong = 6;   // Gauss points along a smooth strip
+constexpr int kPlacesAcross = 6;  // and across the wall, or a part of it
+constexpr int kPieces = 120;      // of the girth: a partner bends little over one
 
 /// Integrates z over a line across the wall whose area grows outwards: between two depths, z
 /// straight.
@@ -68,7 +68,7 @@ double end_volume(const section::Wall& wall, const bevel::TableSpec& spec,
   const SectionSurface surface(wall, spec, table);
   double sum = 0.0;
   each_smooth_strip(surface, [&](std::size_t row, double from, double to) {
-    each_place(surface, row, from, to, kAlong,
+    each_place(surface, row, from, to, kPlacesAlong,
                [&](const SectionSurface::Line& line, double weight) {
                  sum += weight * under_line(surface, line);
                });
@@ -83,7 +83,7 @@ double groove_volume(const section::Wall& wall, const bevel::TableSpec& spec,
   std::vector<joint::PreparedCutter> partners;
   for (const auto& cutter : *cutters)
     if (auto one = joint::prepare(cutter)) partners.push_back(*one);
-  const auto rule = math::gauss_legendre(kAcross);
+  const auto rule = math::gauss_legendre(kPlacesAcross);
   const SectionSurface surface(wall, spec, table);
   const double piece = table.girth / kPieces;
   double sum = 0.0;

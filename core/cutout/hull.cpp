@@ -1,0 +1,164 @@
+#include "core/cutout/hull.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/angle.hpp"
+#include "core/base/elementary.hpp"
+#include "core/math/rotation.hpp"
+
+namespace tubecut::cutout {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+constexpr double kEqual = 1e-9;  // mm, and of a direction's rounding
+constexpr double kShort = 1e-5;  // rad and mm, of arcs and ways that make no piece of their own
+constexpr int kHalvings = 10;
+
+HullPart arc_part(const Vector2d& centre, double radius, double angle, double sweep) {
+  HullPart out{
+      .from = {}, .to = {}, .centre = centre, .radius = radius, .angle = angle, .sweep = sweep};
+  out.from = out.at(0.0);
+  out.to = out.at(1.0);
+  return out;
+}
+
+/// The pieces of a drawing in the local plane, from parts of the branch's own.
+class Drawing {
+ public:
+  Drawing(const Matrix2d& onto, const Vector2d& shift)
+      : onto_(onto), shift_(shift), rigid_(is_rigid(onto)) {}
+
+  [[nodiscard]] Flat at(const Vector2d& p) const { return onto_ * p + shift_; }
+
+  void add(const HullPart& part) {
+    if (part.radius == 0.0)
+      out_.push_back({.to = at(part.to)});
+    else if (rigid_)
+      out_.push_back({.to = at(part.to), .centre = at(part.centre)});
+    else
+      for (int k = 0; k < 4; ++k)
+        halve(arc_part(part.centre, part.radius, part.angle + 0.25 * k * part.sweep,
+                       0.25 * part.sweep),
+              kHalvings);
+  }
+
+  [[nodiscard]] std::vector<Piece> take() { return std::move(out_); }
+
+ private:
+  [[nodiscard]] Vector2d tangent(const HullPart& part, double share) const {
+    const auto [sin, cos] = elementary::sincos(part.angle + share * part.sweep);
+    return (onto_ * Vector2d(-sin, cos)).normalized();
+  }
+
+  struct Bow {
+    Flat to, centre;
+  };
+  /// The arc from `from` in the direction of `along`, to `to`.
+  static Bow bow(const Flat& from, const Vector2d& along, const Flat& to) {
+    const Vector2d left(-along.y(), along.x()), way = to - from;
+    return {to, from + left * (way.squaredNorm() / (2.0 * left.dot(way)))};
+  }
+
+  /// An ellipse's arc as two circular ones with its ends and tangents, halved until they follow it.
+  void halve(const HullPart& part, int left) {
+    const Flat from = at(part.at(0.0)), to = at(part.at(1.0));
+    const Vector2d a = tangent(part, 0.0), b = tangent(part, 1.0), way = to - from, sum = a + b;
+    const double bent = 2.0 * (1.0 - a.dot(b));
+    const double along = way.dot(sum);
+    const double reach =
+        way.squaredNorm() / (along + std::sqrt(along * along + bent * way.squaredNorm()));
+    const Flat middle = 0.5 * ((from + reach * a) + (to - reach * b));
+    const auto first = bow(from, a, middle);
+    const auto second = bow(to, -b, middle);
+    double off = 0.0;
+    for (const double share : {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875}) {
+      const Flat p = at(part.at(share));
+      const auto& one = (p - middle).dot(way) < 0.0 ? first : second;
+      off = std::max(off, std::abs((p - one.centre).norm() - (middle - one.centre).norm()));
+    }
+    if (off > kArcOff && left > 0) {
+      halve(arc_part(part.centre, part.radius, part.angle, 0.5 * part.sweep), left - 1);
+      halve(arc_part(part.centre, part.radius, part.angle + 0.5 * part.sweep, 0.5 * part.sweep),
+            left - 1);
+      return;
+    }
+    out_.push_back({.to = middle, .centre = first.centre});
+    out_.push_back({.to = to, .centre = second.centre});
+  }
+
+  Matrix2d onto_;
+  Vector2d shift_;
+  bool rigid_;
+  std::vector<Piece> out_;
+};
+}  // namespace
+
+Vector2d HullPart::at(double share) const {
+  if (radius == 0.0) return from + share * (to - from);
+  const auto [sin, cos] = elementary::sincos(angle + share * sweep);
+  return centre + radius * Vector2d(cos, sin);
+}
+
+std::vector<HullPart> parts_of(const section::Curve& curve, const Vector2d& way) {
+  std::vector<HullPart> out;
+  const double side = elementary::atan2(way.y(), way.x()) + 0.5 * kPi;
+  for (const auto& piece : curve.pieces()) {
+    if (!piece.is_arc()) {
+      const Vector2d along(-piece.normal.y(), piece.normal.x());
+      out.push_back({.from = piece.origin, .to = piece.origin + piece.length * along});
+      continue;
+    }
+    const double sweep = piece.length / piece.radius;
+    std::vector<double> ends{0.0, sweep};
+    for (const double split : {side, side + kPi}) {
+      const double from = math::whole_turn(split - piece.nu);
+      if (from > kShort && from < sweep - kShort) ends.push_back(from);
+    }
+    std::ranges::sort(ends);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+      out.push_back(
+          arc_part(piece.origin, piece.radius, piece.nu + ends[i], ends[i + 1] - ends[i]));
+  }
+  return out;
+}
+
+std::vector<HullPart> swept(const section::Curve& curve, const Vector2d& way) {
+  auto parts = parts_of(curve, way);
+  if (!(way.norm() > kShort)) return parts;
+  std::vector<HullPart> out;
+  for (auto& part : parts) {
+    const Vector2d along =
+        part.radius > 0.0 ? part.at(0.5 + 1e-3) - part.at(0.5 - 1e-3) : part.to - part.from;
+    // Its outward normal is the tangent turned back by a right angle.
+    const double faces = Vector2d(along.y(), -along.x()).normalized().dot(way);
+    if (faces > kEqual * way.norm())
+      for (auto* point : {&part.from, &part.to, &part.centre}) *point += way;
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    out.push_back(parts[i]);
+    const auto& next = parts[(i + 1) % parts.size()];
+    if ((next.from - parts[i].to).norm() > kEqual)
+      out.push_back({.from = parts[i].to, .to = next.from});
+  }
+  return out;
+}
+
+bool is_rigid(const Matrix2d& onto) {
+  return (onto.transpose() * onto - Matrix2d::Identity()).norm() < kEqual;
+}
+
+Contour drawn_contour(const std::vector<HullPart>& hull, const Matrix2d& onto,
+                      const Vector2d& shift) {
+  Drawing drawing(onto, shift);
+  Contour out{.start = drawing.at(hull.front().from), .pieces = {}, .mirrored = true};
+  for (const auto& part : hull) drawing.add(part);
+  out.pieces = drawing.take();
+  out.pieces.back().to = out.start;
+  return out;
+}
+
+}  // namespace tubecut::cutout
