@@ -7,10 +7,12 @@
 #include <tuple>
 #include <utility>
 
+#include "api/endpoints/dxf_contour.hpp"
 #include "api/endpoints/section_bevel_table.hpp"
 #include "api/limits.hpp"
 #include "api/wire/bevel_names.hpp"
 #include "api/wire/cutout_names.hpp"
+#include "api/wire/problem.hpp"
 #include "core/cutout/flats.hpp"
 #include "core/cutout/rows.hpp"
 
@@ -74,6 +76,32 @@ cutout::Contour decode_contour_shape(Reader& in) {
   return out;
 }
 
+/// A drawing's one contour; what is wrong with it is an issue of its text.
+cutout::Contour decode_dxf_shape(Reader& in) {
+  const bool mirrored = in.flag("mirrored", false);
+  const auto* field = in.find("dxf");
+  const auto* text = field == nullptr ? nullptr : field->as<std::string>();
+  in.note("dxf");
+  if (text == nullptr || text->empty() || text->size() > kLongestDxf) {
+    in.issue({.code = field == nullptr  ? ErrorCode::missing_field
+                      : text == nullptr ? ErrorCode::wrong_type
+                                        : ErrorCode::bad_text,
+              .pointer = "dxf",
+              .limit = Json{static_cast<double>(kLongestDxf)},
+              .hint = "the text of a DXF file, of 1 to that many bytes, is required"},
+             field);
+    return {};
+  }
+  in.put("dxf", Json{*text});
+  auto read = read_dxf_contour(*text);
+  if (!read) {
+    in.issue(field_issue(read.error().issues.front(), "dxf"));
+    return {};
+  }
+  read->mirrored = mirrored;
+  return *std::move(read);
+}
+
 /// The least corner that the kerf allows, or 0 with corners as_cut or if a side is refused.
 double default_radius(const Common& common, const cutout::Spec& spec, const cutout::Rectangle& r,
                       cutout::Lay lay) {
@@ -90,10 +118,11 @@ double default_radius(const Common& common, const cutout::Spec& spec, const cuto
 }
 
 void decode_shape(Reader& in, const Common& common, cutout::Lay lay, cutout::Spec& out) {
-  enum class Kind { circle, slot, rectangle, contour };
+  enum class Kind { circle, slot, rectangle, contour, dxf };
   static constexpr std::array kKinds{
       Option<Kind>{"circle", Kind::circle}, Option<Kind>{"slot", Kind::slot},
-      Option<Kind>{"rectangle", Kind::rectangle}, Option<Kind>{"contour", Kind::contour}};
+      Option<Kind>{"rectangle", Kind::rectangle}, Option<Kind>{"contour", Kind::contour},
+      Option<Kind>{"dxf", Kind::dxf}};
   const auto kind = in.tag("kind", kKinds);
   if (!kind) return;
   out.turn = in.angle("angle_deg", kTurnDeg, Angle{}).rad();
@@ -118,6 +147,10 @@ void decode_shape(Reader& in, const Common& common, cutout::Lay lay, cutout::Spe
     case Kind::contour:
       out.as_cut = decode_as_cut(in);
       out.shape = decode_contour_shape(in);
+      return;
+    case Kind::dxf:
+      out.as_cut = decode_as_cut(in);
+      out.shape = decode_dxf_shape(in);
       return;
   }
 }

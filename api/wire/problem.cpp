@@ -99,6 +99,15 @@ std::string pointer_of(std::string_view member, const Json& request) {
   return pointer;
 }
 
+FieldIssue field_issue(Issue issue, std::string pointer) {
+  return {.code = issue.code,
+          .pointer = std::move(pointer),
+          .got = shown(issue.got),
+          .limit = shown(issue.limit),
+          .unit = std::move(issue.unit),
+          .hint = std::move(issue.hint)};
+}
+
 Problem field_problem(std::vector<FieldIssue> issues) {
   Problem out{.code = ErrorCode::invalid_request, .detail = {}, .issues = std::move(issues)};
   const auto& first = out.issues.front();

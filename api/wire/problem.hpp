@@ -30,6 +30,8 @@ struct Problem {
 
 /// Field issues as one problem: their own code when they agree on it, else `invalid_request`.
 [[nodiscard]] Problem field_problem(std::vector<FieldIssue> issues);
+/// Returns core's issue as one of a field.
+[[nodiscard]] FieldIssue field_issue(Issue issue, std::string pointer);
 
 /// Returns a core error, its members mapped to pointers into the request with defaults applied.
 [[nodiscard]] Problem core_problem(const Error& error, const Json& request);

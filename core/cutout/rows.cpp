@@ -14,6 +14,7 @@ namespace tubecut::cutout {
 namespace {
 
 constexpr double kSmooth = 1e-7;  // rad, between two segments that are one line
+constexpr double kLeft = 1e-4;    // mm, of metal in a hollow corner that counts as smooth
 constexpr double kBulge = 0.004;  // mm, of a chord of the torch's line into the part
 constexpr int kDeepest = 12;      // halvings of a segment
 constexpr double kEighth = 0.25 * kPi;
@@ -150,7 +151,9 @@ Result<void> Maker::join(Run& before, Run& after) const {
     round_corner(before, after);
     return {};
   }
-  if (!cutting_.as_cut)
+  // Coordinates of a drawing are rounded, so that its tangent pieces meet at a small angle.
+  const bool smooth = 0.5 * cutting_.kerf * (1.0 - elementary::cos(angle)) <= kLeft;
+  if (!cutting_.as_cut && !smooth)
     return fail({.code = ErrorCode::out_of_range,
                  .member = "pieces/" + std::to_string(before.piece),
                  .got = 0.0,
@@ -159,6 +162,7 @@ Result<void> Maker::join(Run& before, Run& after) const {
                  .hint = "round the corner at its end by an arc of this radius, or accept what the "
                          "beam leaves: corners as_cut"});
   const auto met = crossing(before.rows, after.rows);
+  if (!met && smooth) return {};
   if (!met)
     return fail({.code = ErrorCode::out_of_range,
                  .hint = "beside a corner the contour is narrower than the kerf"});

@@ -1,0 +1,306 @@
+#include "api/endpoints/dxf_contour.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/angle.hpp"
+#include "core/base/elementary.hpp"
+#include "core/base/try.hpp"
+
+namespace tubecut::api {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kJoined = 0.01;  // mm, between the ends of two entities that are one place
+constexpr double kInch = 25.4;
+constexpr std::size_t kMostWays = 500;
+constexpr std::string_view kReads = "LINE|ARC|CIRCLE|LWPOLYLINE|POLYLINE";
+
+/// A pair of lines of the file.
+struct Group {
+  int code = 0;
+  std::string_view value;
+};
+
+/// An entity with its groups; of a POLYLINE those of its vertices too.
+struct Entity {
+  std::string_view kind;
+  std::vector<Group> groups;
+
+  [[nodiscard]] std::optional<std::string_view> find(int code) const {
+    const auto at = std::ranges::find(groups, code, &Group::code);
+    return at == groups.end() ? std::nullopt : std::optional(at->value);
+  }
+};
+
+/// A straight or circular way; `bulge` is the tangent of a quarter of an arc's angle, positive if
+/// it turns left.
+struct Way {
+  Vector2d from, to;
+  double bulge = 0.0;
+};
+
+tl::unexpected<Error> no_dxf(std::string hint) {
+  return fail({.code = ErrorCode::bad_text, .hint = std::move(hint)});
+}
+
+std::string_view trimmed(std::string_view line) {
+  const auto first = line.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::string_view next_line(std::string_view& text) {
+  const auto end = text.find('\n');
+  const auto line = trimmed(text.substr(0, end));
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return line;
+}
+
+template <class Number>
+std::optional<Number> number_of(std::string_view text) {
+  Number out{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return out;
+}
+
+Result<std::vector<Group>> groups_of(std::string_view text) {
+  std::vector<Group> out;
+  while (!text.empty()) {
+    const auto code = number_of<int>(next_line(text));
+    if (!code) return no_dxf("every odd line of a DXF text is a group code, a whole number");
+    out.push_back({*code, next_line(text)});
+  }
+  return out;
+}
+
+/// What of the file counts: its unit, and the entities of the section of that name.
+struct Drawing {
+  std::optional<std::string_view> unit;
+  std::vector<Entity> entities;
+};
+
+Drawing drawing_of(const std::vector<Group>& groups) {
+  Drawing out;
+  std::string_view section;
+  bool named = false, polyline = false;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const auto& [code, value] = groups[i];
+    if (code == 0 && value == "SECTION") {
+      named = true;
+      continue;
+    }
+    if (named && code == 2) section = value;
+    named = false;
+    if (code == 0 && value == "ENDSEC") section = {};
+    if (section == "HEADER" && code == 9 && value == "$INSUNITS" && i + 1 < groups.size())
+      out.unit = groups[i + 1].value;
+    if (section != "ENTITIES") continue;
+    const bool part = polyline && (value == "VERTEX" || value == "SEQEND");
+    if (code == 0 && !part) {
+      polyline = value == "POLYLINE";
+      out.entities.push_back({value, {}});
+    } else if (!out.entities.empty()) {
+      if (code == 0 && value == "SEQEND") polyline = false;
+      out.entities.back().groups.push_back({code, value});
+    }
+  }
+  return out;
+}
+
+Result<double> unit_of(const Drawing& drawing) {
+  const auto unit = drawing.unit.value_or("0");
+  if (unit == "0" || unit == "4") return 1.0;
+  if (unit == "1") return kInch;
+  return fail({.code = ErrorCode::bad_choice,
+               .got = "$INSUNITS " + std::string(unit),
+               .limit = std::string("0|1|4"),
+               .unit = {},
+               .hint = "save the drawing in mm (4) or inches (1)"});
+}
+
+/// Reads the numbers of an entity, and collects what is missing.
+class Numbers {
+ public:
+  explicit Numbers(const Entity& entity) : entity_(entity) {}
+
+  double operator()(int code) {
+    const auto text = entity_.find(code);
+    const auto value = text ? number_of<double>(*text) : std::nullopt;
+    if (!value || !std::isfinite(*value)) sound_ = false;
+    return value.value_or(0.0);
+  }
+  [[nodiscard]] bool sound() const { return sound_; }
+
+ private:
+  const Entity& entity_;
+  bool sound_ = true;
+};
+
+/// An arc turning left, from one angle to the other; a whole turn as two halves.
+void add_arc(const Vector2d& centre, double radius, double from, double to, std::vector<Way>& out) {
+  double sweep = to - from;
+  while (sweep <= 0.0) sweep += kTwoPi;
+  const auto at = [&](double share) {
+    const auto [sin, cos] = elementary::sincos(from + share * sweep);
+    return Vector2d(centre + radius * Vector2d(cos, sin));
+  };
+  const double bulge = elementary::tan(0.125 * sweep);  // of each half
+  out.push_back({at(0.0), at(0.5), bulge});
+  out.push_back({at(0.5), sweep == kTwoPi ? at(0.0) : at(1.0), bulge});
+}
+
+/// The places of a polyline in the order of its groups, each with its bulge.
+std::vector<Way> vertices_of(const Entity& entity) {
+  const bool light = entity.kind == "LWPOLYLINE";
+  std::vector<Way> out;
+  bool inside = light;
+  for (const auto& [code, value] : entity.groups) {
+    if (code == 0) inside = value == "VERTEX";
+    if (!light && code == 0 && inside) out.push_back({Vector2d::Zero(), Vector2d::Zero(), 0.0});
+    if (!inside) continue;
+    const auto number = number_of<double>(value);
+    if (light && code == 10) out.push_back({Vector2d::Zero(), Vector2d::Zero(), 0.0});
+    if (out.empty() || !number) continue;
+    if (code == 10) out.back().from.x() = *number;
+    if (code == 20) out.back().from.y() = *number;
+    if (code == 42) out.back().bulge = *number;
+  }
+  return out;
+}
+
+void add_polyline(const Entity& entity, std::vector<Way>& out) {
+  auto all = vertices_of(entity);
+  const auto flags = number_of<int>(entity.find(70).value_or("0")).value_or(0);
+  const bool closed = (flags & 1) != 0;
+  for (std::size_t i = 0; i < all.size() && (closed || i + 1 < all.size()); ++i) {
+    all[i].to = all[(i + 1) % all.size()].from;
+    if ((all[i].to - all[i].from).norm() > 0.0) out.push_back(all[i]);
+  }
+}
+
+/// Adds an entity's ways. One whose extrusion points away from the viewer is seen from behind.
+Result<void> add_entity(const Entity& entity, std::vector<Way>& out) {
+  Numbers number(entity);
+  std::vector<Way> made;
+  if (entity.kind == "LINE") {
+    const Vector2d from(number(10), number(20)), to(number(11), number(21));
+    made.push_back({from, to, 0.0});
+  } else if (entity.kind == "CIRCLE") {
+    add_arc(Vector2d(number(10), number(20)), number(40), 0.0, kTwoPi, made);
+  } else if (entity.kind == "ARC") {
+    const Vector2d centre(number(10), number(20));
+    const double radius = number(40);
+    add_arc(centre, radius, number(50) * kRadPerDeg, number(51) * kRadPerDeg, made);
+  } else if (entity.kind == "LWPOLYLINE" || entity.kind == "POLYLINE") {
+    add_polyline(entity, made);
+  } else {
+    return fail({.code = ErrorCode::bad_choice,
+                 .got = std::string(entity.kind.substr(0, 32)),
+                 .limit = std::string(kReads),
+                 .unit = {},
+                 .hint = "explode or remove it: the drawing has one contour and nothing else"});
+  }
+  if (!number.sound()) return no_dxf(std::string(entity.kind) + " lacks a coordinate");
+  const auto up = entity.find(230);
+  if (entity.kind != "LINE" && up && number_of<double>(*up).value_or(1.0) < 0.0)
+    for (auto& way : made) {
+      way.from.x() = -way.from.x();
+      way.to.x() = -way.to.x();
+      way.bulge = -way.bulge;
+    }
+  std::ranges::move(made, std::back_inserter(out));
+  return {};
+}
+
+void turn_round(Way& way) {
+  std::swap(way.from, way.to);
+  way.bulge = -way.bulge;
+}
+
+/// Puts the ways one after the other, from the first on.
+Result<std::vector<Way>> joined(std::vector<Way> ways) {
+  for (std::size_t i = 0; i + 1 < ways.size(); ++i) {
+    const Vector2d here = ways[i].to;
+    double nearest = 1e300;
+    std::size_t next = i + 1;
+    for (std::size_t k = i + 1; k < ways.size(); ++k)
+      for (const auto* end : {&ways[k].from, &ways[k].to})
+        if (const double off = (*end - here).norm(); off < nearest) {
+          nearest = off;
+          next = k;
+        }
+    if (nearest > kJoined) {
+      const double closes = (ways.front().from - here).norm();
+      if (closes <= kJoined)
+        return fail(
+            {.code = ErrorCode::out_of_range,
+             .hint = "the drawing has more than one contour; each is a cut-out of its own"});
+      return fail({.code = ErrorCode::contour_open,
+                   .got = std::min(nearest, closes),
+                   .limit = kJoined,
+                   .unit = "mm",
+                   .hint = "nothing continues at " + brief(here.x()) + ", " + brief(here.y())});
+    }
+    std::swap(ways[i + 1], ways[next]);
+    auto& way = ways[i + 1];
+    if ((way.to - here).norm() < (way.from - here).norm()) turn_round(way);
+    way.from = here;
+  }
+  const double gap = (ways.back().to - ways.front().from).norm();
+  if (gap > kJoined)
+    return fail({.code = ErrorCode::contour_open,
+                 .got = gap,
+                 .limit = kJoined,
+                 .unit = "mm",
+                 .hint = "nothing continues at " + brief(ways.back().to.x()) + ", " +
+                         brief(ways.back().to.y())});
+  ways.back().to = ways.front().from;
+  return ways;
+}
+
+/// A way as a piece of a contour; its arc passes through both ends, which may have been moved.
+cutout::Piece piece_of(const Way& way) {
+  cutout::Piece out{.to = way.to};
+  if (way.bulge == 0.0) return out;
+  const Vector2d half = 0.5 * (way.to - way.from), left(-half.y(), half.x());
+  const double b = way.bulge;
+  out.centre = way.from + half + left * ((1.0 - b * b) / (2.0 * b));
+  out.clockwise = b < 0.0;
+  return out;
+}
+
+}  // namespace
+
+Result<cutout::Contour> read_dxf_contour(std::string_view text) {
+  TRY(const auto groups, groups_of(text));
+  const auto drawing = drawing_of(groups);
+  TRY(const auto unit, unit_of(drawing));
+  std::vector<Way> ways;
+  for (const auto& entity : drawing.entities) TRY(add_entity(entity, ways));
+  if (ways.empty()) return no_dxf("the section ENTITIES has no contour");
+  if (ways.size() > kMostWays)
+    return fail({.code = ErrorCode::out_of_range,
+                 .got = static_cast<double>(ways.size()),
+                 .limit = static_cast<double>(kMostWays),
+                 .hint = "the contour has too many pieces; fit arcs to it"});
+  for (auto& way : ways) {
+    way.from *= unit;
+    way.to *= unit;
+  }
+  TRY(ways, joined(std::move(ways)));
+  cutout::Contour out{.start = ways.front().from, .pieces = {}};
+  for (const auto& way : ways) out.pieces.push_back(piece_of(way));
+  return out;
+}
+
+}  // namespace tubecut::api
