@@ -22,6 +22,7 @@ export interface Schema {
   exclusiveMaximum?: number;
   minItems?: number;
   maxItems?: number;
+  maxLength?: number;
   items?: Schema;
   oneOf?: Schema[];
   anyOf?: Schema[];

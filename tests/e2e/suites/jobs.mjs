@@ -96,7 +96,7 @@ export const checks = {
       assert.equal(target.kind, kind);
       assert.equal(cutouts, undefined);
       assert.deepEqual(ends, round.ends);
-      assert.equal(await page.locator('[data-adds="/holes"]').count(), 0);
+      await page.locator('[data-adds="/holes"]').waitFor();
       await page.locator('[data-adds="/cutouts"]').waitFor();
       await page.locator('#tab-proof').click();
       assert.equal(await page.locator('#table-faces tbody tr').count(), 4);
@@ -110,6 +110,22 @@ export const checks = {
     await opened(page, 'mixed.json', JSON.stringify({...round, target: {size: 'SHS 60x60x4 EN 10219', length_mm: 1200}}));
     await page.locator('#form .complaint').first().waitFor();
     await plain();
+    assert.match(await page.locator('#verdict .pill').innerText(), /ok|review/);
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  },
+
+  'a DXF file goes into a cut-out with its lines': async ({browser, origin}) => {
+    const page = await open(browser, origin, '#/parts/base-post');
+    await answered(page);
+    const drawing = (radius) => ['0', 'SECTION', '2', 'ENTITIES', '0', 'CIRCLE', '10', '0', '20', '0', '40', String(radius), '0', 'ENDSEC', '0', 'EOF', ''].join('\n');
+    const cutouts = [{id: 'window', shape: {kind: 'dxf', dxf: drawing(8)}, at: {z_mm: 300, phi_deg: 0}}];
+    await opened(page, 'window.json', JSON.stringify({...(await request(page)), cutouts}));
+    const box = page.locator('#form textarea');
+    await box.waitFor();
+    assert.equal(await box.inputValue(), drawing(8));
+    await then(page, () => page.locator('#form input[type=file]').setInputFiles({name: 'window.dxf', mimeType: 'image/vnd.dxf', buffer: Buffer.from(drawing(9))}));
+    assert.equal((await request(page)).cutouts[0].shape.dxf, drawing(9));
     assert.match(await page.locator('#verdict .pill').innerText(), /ok|review/);
     assert.deepEqual(page.faults, []);
     await page.context().close();

@@ -20,6 +20,7 @@ export interface Value {
 }
 
 const inlineList = 6; // longer lists of numbers get a text area
+const fileText = 4096; // texts that may be longer are files
 const inlineText = 28; // and so do those of more characters, which a phone's line holds
 
 export function simple(form: Form, schema: Schema): boolean {
@@ -98,7 +99,7 @@ export function Input(given: Value & {name: string}) {
     return <input type="checkbox" {...shared} checked={checked} onChange={(event) => form.write(pointer, event.currentTarget.checked)} />;
   }
   if (schema.type === 'array' || isRow(value) || Array.isArray(value)) return <List value={value} pointer={pointer} shared={shared} />;
-  return <Text {...given} shared={shared} />;
+  return Number(given.schema.maxLength) >= fileText ? <FileText {...given} shared={shared} /> : <Text {...given} shared={shared} />;
 }
 
 const pause = 400; // ms after which what is typed is complete
@@ -175,6 +176,33 @@ function Text(given: Value & {shared: object}) {
       {...useTyping((text) => form.write(pointer, typed(text, textual, mark)))}
       onKeyDown={textual ? undefined : nudge}
     />
+  );
+}
+
+/** A file as a text: opened, or pasted. */
+function FileText({value, pointer, shared}: Value & {shared: object}) {
+  const form = useForm();
+  const input = useRef<HTMLInputElement>(null);
+  const chose = async ({currentTarget}: {currentTarget: HTMLInputElement}) => {
+    const file = currentTarget.files?.[0];
+    if (file) form.write(pointer, await file.text());
+    currentTarget.value = ''; // the same file once more is a change too
+  };
+  return (
+    <>
+      <textarea
+        rows={4}
+        spellcheck={false}
+        placeholder="Paste the text of the file, or open it"
+        value={String(value ?? '')}
+        {...shared}
+        {...useTyping((text) => form.write(pointer, text === '' ? undefined : text))}
+      />
+      <button type="button" class="open-file" onClick={() => input.current?.click()}>
+        Open file
+      </button>
+      <input ref={input} type="file" hidden aria-label={`A file for ${lastKey(pointer)}`} onChange={(event) => void chose(event)} />
+    </>
   );
 }
 
