@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/support/call.hpp"
+#include "tests/support/drawings.hpp"
 
 /// Rectangular parts as a shop asks for them: sizes by name, in inches, with three decimals; every
 /// pair of ends; the part begun from its other end, and turned by a quarter.
@@ -126,7 +127,7 @@ constexpr double kNear = 0.08;  // mm: both are within the tolerance, along a cu
 
 TEST(EverydaySectionParts, AreMadeFromEitherEndInEveryFile) {
   Random random(23);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < drawings(16, 60); ++i) {
     const auto size = drawn_size(random);
     const auto start = drawn_partner(random, size), finish = drawn_partner(random, size);
     const double length = between(random, 700, 1500);
@@ -155,7 +156,7 @@ TEST(EverydaySectionParts, AreMadeFromEitherEndInEveryFile) {
 /// one before it.
 TEST(EverydaySectionParts, TurnedByAQuarterAreTheSame) {
   Random random(29);
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < drawings(12, 40); ++i) {
     const auto size = drawn_size(random);
     const auto start = drawn_partner(random, size), finish = drawn_partner(random, size);
     const auto upright = part(size, 1000, start, finish),

@@ -11,6 +11,7 @@
 #include "core/base/angle.hpp"
 #include "core/section/section.hpp"
 #include "tests/support/call.hpp"
+#include "tests/support/drawings.hpp"
 
 namespace tubecut::testing::square_holes {
 
@@ -180,12 +181,12 @@ Fence drawn_fence(Random& random, const Size& bar, bool through, double slope) {
 
 TEST(SquareHoles, OfAFenceFitItsBarsHoweverItIsDrawn) {
   Random random(11);
-  for (int drawing = 0; drawing < 18; ++drawing) {
+  for (int drawing = 0; drawing < drawings(6, 18); ++drawing) {
     const Size& bar = drawing % 3 == 0 ? kPicket : drawing % 3 == 1 ? kBar : kOval;
     const bool through = drawing % 2 == 0;
     const auto fence = drawn_fence(random, bar, through, drawing % 4 < 2 ? 0.0 : 0.5);
     const Matrix3d turn =
-        Eigen::AngleAxisd(drawing < 6 ? 0.0 : 0.1 * drawing, Vector3d::UnitZ()).matrix();
+        Eigen::AngleAxisd(0.1 * drawing, Vector3d::UnitZ()).matrix();
     const auto answer = post(kFrames, frame_of(fence, turn));
     ASSERT_FALSE(answer.outcome.error) << drawing << answer.outcome.body.substr(0, 1500);
     EXPECT_EQ(at(answer.body, "verification/passed"), Json{true}) << drawing;

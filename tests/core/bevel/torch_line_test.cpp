@@ -12,6 +12,7 @@
 #include "core/bevel/beam/beam.hpp"
 #include "tests/core/bevel/beam_oracle.hpp"
 #include "tests/core/joint/random_nodes.hpp"
+#include "tests/support/drawings.hpp"
 
 namespace tubecut::bevel {
 namespace {
@@ -201,7 +202,7 @@ std::string described(const TableSpec& spec, const Table& t) {
 TEST(TorchLine, StaysOutOfRandomTables) {
   constexpr std::uint64_t kSeed = 20261122;
   const char* asked = std::getenv("TUBECUT_TABLES");  // NOLINT(concurrency-mt-unsafe)
-  const int tables = asked != nullptr ? std::atoi(asked) : 24;
+  const int tables = asked != nullptr ? std::atoi(asked) : testing::drawings(8, 24);
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
   std::map<std::string, int> refused;

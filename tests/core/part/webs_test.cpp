@@ -1,4 +1,5 @@
 #include "core/part/webs.hpp"
+#include "tests/support/drawings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -86,7 +87,7 @@ TEST(Webs, AreThoseOfDensePointSets) {
   std::mt19937_64 random(11);
   double worst = 0;
   int between = 0, ends = 0;
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < testing::drawings(4, 12); ++round) {
     std::vector<bevel::Hole> holes;
     for (int k = 0; k < 3; ++k)
       holes.push_back(egg(any(random, -1.5, 7.5), 60 + 75.0 * k + any(random, -4, 4),
