@@ -7,6 +7,7 @@ const {cornersOf, edgesOf, outside, wallBetween} = await load('src/pictures/sect
 const {faceTable, partnersOf} = await load('src/pictures/section_part.ts');
 const {placedFrom, seenFrom} = await load('src/pictures/geometry.ts');
 const {printable} = await load('src/files.ts');
+const {leadsOf} = await load('src/onward.ts');
 
 const shapes = [[100, 50, 8], [50, 100, 8], [80, 80, 0], [60, 60, 30], [120, 40, 20]];
 const girthOf = ([height, width, r]) => 2 * (height + width) - (8 - 2 * Math.PI) * r;
@@ -46,11 +47,13 @@ test('the inner edge lies one wall inside, along the normal', () => {
   });
 });
 
-test('files that only round tubes have are not offered', () => {
-  const formats = ['text/csv', 'image/svg+xml', 'text/x-gcode', 'model/step', 'application/x-dstv', 'image/vnd.dxf'].map((media) => ({media, views: ['chart', 'section'], options: []}));
+test('files and options that only round tubes have are not offered', () => {
+  const options = ['lead_mm', 'tabs', 'tab_mm', 'tabs_of', 'start_deg', 'marks', 'passes', 'pivot_length_mm'].map((name) => ({name}));
+  const formats = ['text/csv', 'image/svg+xml', 'text/x-gcode', 'model/step', 'application/x-dstv', 'image/vnd.dxf'].map((media) => ({media, views: ['chart', 'section'], options}));
   assert.deepEqual(printable(formats, true), formats);
   assert.deepEqual(printable(formats, false).map(({media, views}) => [media, views]),
-    ['text/csv', 'image/svg+xml', 'image/vnd.dxf'].map((media) => [media, ['chart']]));
+    ['text/csv', 'image/svg+xml', 'text/x-gcode', 'image/vnd.dxf'].map((media) => [media, ['chart']]));
+  assert.deepEqual(printable(formats, false)[2].options.map(({name}) => name), ['lead_mm', 'pivot_length_mm']);
   for (const type of ['application/x-dstv', 'model/step']) assert.ok(printable(formats, false, true).some(({media}) => media === type), type);
 });
 
@@ -106,4 +109,18 @@ test('a frame carries a body there and back', () => {
   const frame = {origin: [1, 2, 3], x: [0, 1, 0], y: [-1, 0, 0], z: [0, 0, 1]};
   const box = {kind: 'box', point: [4, 5, 6], direction: [1, 0, 0], up: [0, 0, 1], width: 1, height: 1, corner: 0, half: 1, tone: 0};
   assert.deepEqual(seenFrom(frame, placedFrom(frame, box)), box);
+});
+
+test('each end that others cut leads to its pulses, on a machine that swings the torch if its bevel needs it', () => {
+  const table = {type: 'tube_table', axes: ['A', 'X', 'Y', 'Z'].map((name) => ({name}))};
+  const swinging = {type: 'tube_table', axes: [...table.axes, {name: 'B'}]};
+  const plane = {kind: 'plane', point_mm: [0, 0, 0], normal: [1, 0, 1]};
+  const body = {target: {size: 'SHS 80x80x4', length_mm: 900}, ends: {start: {square_at_mm: 0}, finish: {cutters: [plane]}}, kerf_mm: 1, reference: {order: '7'}};
+  const leads = (b_deg, machines) => leadsOf('parts', body, {result: {section: {}, ends: {start: {points: {b_deg: [0]}}, finish: {points: {b_deg}}}}}, {sizes: new Map(), machines: new Map(machines)});
+  const found = leads([0, 0], [['round', {type: 'five_axis_cutter', axes: [{name: 'B'}]}], ['square', table]]);
+  assert.deepEqual(found.map(({name, endpoint}) => [name, endpoint]), [['Pulses, finish', 'pulse-schedules']]);
+  assert.deepEqual(found[0].body.cut, {target: {size: 'SHS 80x80x4'}, cutters: [plane], kerf_mm: 1});
+  assert.equal(found[0].body.machine, 'square');
+  assert.deepEqual(leads([0, 12], [['square', table]]), []);
+  assert.equal(leads([0, 12], [['square', table], ['own', swinging]])[0].body.machine, 'own');
 });

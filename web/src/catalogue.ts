@@ -6,7 +6,7 @@ export interface Process {
   metal_max_mm: number;
 }
 export interface Listed {
-  machines: {name: string; process?: {rows: Process[]}}[];
+  machines: {name: string; machine: {type?: string}; process?: {rows: Process[]}}[];
   posts: {name: string; post: {what: string; kind?: string}}[];
 }
 

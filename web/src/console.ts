@@ -2,6 +2,7 @@ import {batch, signal} from '@preact/signals';
 import * as address from './address';
 import {byId, save} from './dom';
 import {draftOf, keep, newId, takeOver} from './drafts';
+import {remember, remembered, type Purpose} from './files';
 import {Form} from './form';
 import {clone, type Row} from './json';
 import {keyed} from './key';
@@ -49,6 +50,7 @@ export class Console {
   readonly said = signal(''); // summary of the picture, for the verdict
   readonly trouble = signal(''); // error of the drawing
   readonly leads = signal<Lead[]>([]);
+  readonly wanted = signal(0); // how often files of a purpose were asked for
   readonly linked = signal('Copy link');
   readonly keyed = signal(false);
 
@@ -337,8 +339,10 @@ export class Console {
     this.remember();
   }
 
-  /** The files of the answer, among the details under it. */
-  files(): void {
+  /** The files of the answer, among the details under it; `purpose`: what they are for. */
+  files(purpose?: Purpose): void {
+    if (purpose) remember({...remembered(), purpose});
+    this.wanted.value += 1;
     this.choose('downloads');
     drawn(() => byId('tab-downloads').focus());
   }

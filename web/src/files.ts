@@ -29,13 +29,20 @@ export function known(type: string): [name: string, ending: string, purpose: Pur
   return media[type] ?? (/dstv|nc1/.test(type) ? ['DSTV', 'nc1', 'model'] : [type, 'txt', 'data']);
 }
 
-/** The formats and views of an answer: programs and sections of the wall are of round tubes only; STEP and NC1 also of `whole` parts. */
+/** What a program around a tube that is not round has no use for: it is cut in one pass, without tabs or marks, from a flat. */
+const ofRound = new Set(['passes', 'tabs', 'tab_mm', 'tabs_of', 'start_deg', 'marks', 'mark_speed_mm_min']);
+
+/** The formats, views and options of an answer: sections of the wall are of round tubes only, STEP and NC1 also of `whole` parts. */
 export const printable = (formats: Format[], round: boolean, whole = false): Format[] =>
   round
     ? formats
     : formats
-        .filter(({media: type}) => known(type)[2] !== 'program' && (whole || !/dstv|nc1|step/.test(type)))
-        .map((format) => ({...format, views: format.views.filter((view) => view !== 'section')}));
+        .filter(({media: type}) => whole || !/dstv|nc1|step/.test(type))
+        .map((format) => ({
+          ...format,
+          views: format.views.filter((view) => view !== 'section'),
+          options: format.options.filter(({name}) => !ofRound.has(name)),
+        }));
 
 /** The purposes that an endpoint has files for. */
 export const purposesOf = (formats: Format[]): Purpose[] =>

@@ -5,6 +5,8 @@ export interface Move {
   seconds: number;
   x: number; // of the torch's tip along the tube, mm from the program's zero
   phi: number; // of the tube under the torch, degrees
+  out: number; // of the tip over the axis of the tube, mm
+  across: number; // and to the left of it, seen along the tube
   b: number; // lean of the torch, degrees
   cut: string; // that it belongs to
 }
@@ -14,6 +16,14 @@ export interface Program {
   /** Seconds of cutting and piercing, and of rapids at the speeds below; length that is cut, mm. */
   time: {cut: number; pierce: number; rapid: number};
   length: number;
+  tube: Tube;
+}
+/** The tube that a program states: its size across, and the place of X0 along it. */
+export interface Tube {
+  round: boolean;
+  reach: number; // from the axis to the outermost place, mm
+  wall: number;
+  zero: number;
 }
 
 // Programs leave rapids to the control; these speeds are typical of a tube cutter, and stated with the time.
@@ -35,15 +45,35 @@ function wordsOf(code: string, names: Map<string, number>): Map<string, number[]
 
 const commentOf = (line: string) => /^\s*(?:N\d+\s*)?(?:\((.*)\)|;(.*))\s*$/.exec(line)?.slice(1).find(Boolean);
 
+/** A place over the wall, in the tube's own frame. */
+export function placeOf({out, across, phi, x}: Pick<Move, 'out' | 'across' | 'phi' | 'x'>, zero = 0): [number, number, number] {
+  const [c, s] = [Math.cos(phi * radians), Math.sin(phi * radians)];
+  return [out * c - across * s, out * s + across * c, zero + x];
+}
+
+/** "tube 80 x 40 x 3 mm, corners 6 mm outside", or "tube 60 x 4 mm" if it is round. */
+function tubeOf(comments: string): Tube {
+  const sizes = (/^tube ([\d.]+(?: x [\d.]+)+) mm/m.exec(comments)?.[1] ?? '').split(' x ').map(Number);
+  const round = sizes.length < 3;
+  const zero = Number(/^x0: [^,]*, z ([-\d.]+)/m.exec(comments)?.[1] ?? 0);
+  return {round, reach: round ? (sizes[0] ?? 0) / 2 : Math.hypot(sizes[0] as number, sizes[1] as number) / 2, wall: sizes[sizes.length - 1] ?? 0, zero};
+}
+
+function wayBetween(from: Move, to: Move, {round, reach}: Tube): number {
+  if (round) return Math.hypot(to.x - from.x, reach * radians * (to.phi - from.phi));
+  const [a, b] = [placeOf(from), placeOf(to)];
+  return Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+}
+
 /** The moves of a G-code program of this service in mm and degrees, with X along the tube; of another program the lines alone. */
 export function parseProgram(text: string): Program {
   const lines = text.replace(/\r/g, '').replace(/\n$/, '').split('\n');
   const comments = lines.flatMap((line) => commentOf(line) ?? []).map((line) => line.toLowerCase());
   const metric = comments.includes('units mm, deg, mm/min') && comments.some((line) => line.startsWith('x0: '));
-  const program: Program = {lines, moves: [], time: {cut: 0, pierce: 0, rapid: 0}, length: 0};
+  const tube = tubeOf(comments.join('\n'));
+  const program: Program = {lines, moves: [], time: {cut: 0, pierce: 0, rapid: 0}, length: 0, tube};
   if (!metric) return program;
   const pivot = Number(/pivot of the torch, ([\d.]+) mm from its tip/.exec(comments.join('\n'))?.[1] ?? 0);
-  const radius = Number(/^tube ([\d.]+) x/m.exec(comments.join('\n'))?.[1] ?? 0) / 2;
   const names = new Map<string, number>();
   const at = new Map<string, number>();
   let [mode, inverse, cut, feed, known] = [0, false, '', 0, false];
@@ -64,9 +94,12 @@ export function parseProgram(text: string): Program {
     const add = (kind: Move['kind'], seconds: number) => {
       const b = at.get('B') ?? 0;
       const [x, phi] = [(at.get('X') ?? 0) - pivot * Math.sin(b * radians), at.get('A') ?? 0];
+      // Around a section Y and Z follow the wall; of a round tube the wall is always as far from the axis.
+      const [out, across] = tube.round ? [tube.reach, 0] : [(at.get('Z') ?? 0) - pivot * Math.cos(b * radians), -(at.get('Y') ?? 0)];
+      const move: Move = {line: i, kind, seconds, x, phi, out, across, b, cut};
       const before = program.moves[program.moves.length - 1];
-      if (kind === 'cut' && before) program.length += Math.hypot(x - before.x, radius * radians * (phi - before.phi));
-      program.moves.push({line: i, kind, seconds, x, phi, b, cut});
+      if (kind === 'cut' && before) program.length += wayBetween(before, move, tube);
+      program.moves.push(move);
       program.time[kind] += seconds;
     };
     if (g.includes(4)) return add('pierce', (words.get('P') ?? words.get('X') ?? words.get('F') ?? [0])[0] ?? 0);

@@ -6,16 +6,18 @@ import {unseen} from '../seen.mjs';
 
 const line = (page) => page.locator('#program [aria-current=true]');
 
-async function previewed({browser, origin, service}, name, {width, theme}) {
+async function previewed({browser, origin, service}, name, {width, theme}, more = {}) {
   const page = await open(browser, origin, `#/parts/${name}?tab=downloads`, {width, height: 844, theme});
   await answered(page);
   const before = await pixels(page);
-  await page.locator('#panel [name=purpose][value=program]').check();
-  await page.locator('[data-option=lead_mm]').fill('5');
+  await page.locator('[data-onward=program]').click();
+  assert.ok(await page.locator('#panel [name=purpose][value=program]').isChecked());
+  const options = {lead_mm: '5', ...more};
+  for (const [name, value] of Object.entries(options)) await page.locator(`[data-option=${name}]`).fill(value);
   await page.locator('#preview').click();
   await page.locator('#program li').first().waitFor();
   const body = readFileSync(new URL(`../../../examples/parts/${name}.json`, import.meta.url));
-  const {text} = await service.ask('/v1/parts?format=gcode&speed_mm_min=600&lead_mm=5', {body});
+  const {text} = await service.ask(`/v1/parts?format=gcode&speed_mm_min=600&${new URLSearchParams(options)}`, {body});
   const [, length, seconds] = /, ([\d.]+) mm in ([\d.]+) s with the delays/.exec(text);
   assert.ok(Math.abs(parseFloat(await page.locator('#program-time').innerText()) - seconds) < 0.2);
   assert.ok((await page.locator('#program figcaption').innerText()).includes(`${Math.round(length)}`.slice(0, -1)));
@@ -47,6 +49,31 @@ export const checks = {
     await then(page, () => page.locator('[data-pointer="/kerf_mm"]').fill('2'));
     assert.equal(await page.locator('#program').count(), 0, 'of another request it is gone');
     assert.ok(await page.locator('#player').isHidden());
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  },
+
+  'a square tube turns under the torch, and leads to its pulses': async (given) => {
+    const {page, text} = await previewed(given, 'shs-base-post', {width: 1280, theme: 'light'}, {pivot_length_mm: '0'});
+    for (const name of ['tabs', 'passes', 'start_deg', 'machine']) assert.equal(await page.locator(`#panel [data-option=${name}]`).count(), 0, name);
+    const cuts = [...text.matchAll(/^\(cut: (.*)\)$/gm)].map(([, cut]) => cut);
+    assert.equal(await page.locator('.timeline').getAttribute('aria-label'), `Time line: ${cuts.join(', ')}`);
+    const seen = new Set();
+    for (const cut of cuts.slice(0, 5)) {
+      await page.locator('#play').click();
+      assert.ok((await page.locator('#player output').innerText()).endsWith(cut));
+      seen.add((await pixels(page)).sum);
+    }
+    assert.equal(seen.size, 5, 'the tube turns');
+    await then(page, () => page.locator('[data-onward=pulse-schedules]').click());
+    assert.match(await page.locator('#verdict .pill').innerText(), /ok|review/);
+    const time = page.locator('#player input');
+    const pictures = new Set();
+    for (const share of [0.1, 0.4, 0.7]) {
+      await time.fill(String(Math.round(share * Number(await time.getAttribute('max')))));
+      pictures.add((await pixels(page)).sum);
+    }
+    assert.equal(pictures.size, 3, 'under the pulses too');
     assert.deepEqual(page.faults, []);
     await page.context().close();
   },

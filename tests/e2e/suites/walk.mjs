@@ -117,7 +117,7 @@ export const checks = {
   'what an answer leads on to is answered': async ({browser, origin}) => {
     const page = await open(browser, origin);
     await answered(page);
-    const leads = page.locator('#onward [data-onward]:not([data-onward=files])');
+    const leads = page.locator('#onward [data-onward]:not([data-onward=files], [data-onward=program])');
     const go = (hash) => then(page, () => page.evaluate((to) => {
       location.hash = to;
     }, `#/${hash}`));

@@ -1,11 +1,12 @@
 import {point} from '../links';
-import type {CutTube, HoledTube, Picture, Played, Solid, Vector} from '../picture';
-import type {Move, Program} from '../program';
-import {bounds, onTube, radians} from './geometry';
+import type {Picture, Played, Solid, Vector} from '../picture';
+import {placeOf, type Move, type Program} from '../program';
+import {radians} from './geometry';
 
 export const programLink = 'program';
 const tones: Record<Move['kind'], string> = {cut: 'after', rapid: 'ink-soft', pierce: 'mark'};
-const lifted = 0.25; // of the radius, by which rapids are drawn above the tube
+const lifted = 1.25; // of the tube's reach, at which rapids are drawn
+const turn = 6; // degrees of a rapid that are drawn straight
 
 /** Moves of one kind that follow each other in one cut: first and last. */
 function stretches(moves: Move[]): [number, number][] {
@@ -19,35 +20,48 @@ function stretches(moves: Move[]): [number, number][] {
   return out;
 }
 
+/** A rapid while the tube turns under it. */
+function turned(from: Move, to: Move): Move[] {
+  const steps = Math.max(1, Math.ceil(Math.abs(to.phi - from.phi) / turn));
+  const between = (key: 'x' | 'phi' | 'out' | 'across', i: number) => from[key] + ((to[key] - from[key]) * i) / steps;
+  return Array.from({length: steps}, (_, i) => ({
+    ...to,
+    x: between('x', i + 1),
+    phi: between('phi', i + 1),
+    out: between('out', i + 1),
+    across: between('across', i + 1),
+  }));
+}
+
 /** The picture of a part or a cut with a program on it: the tube turns under the torch, the moves have the colour of their kind. */
-export function programmed(picture: Picture, {moves}: Program): Picture {
+export function programmed(picture: Picture, {moves, tube}: Program): Picture {
   const {solid} = picture;
-  const tube = solid?.holed?.[0] ?? solid?.tubes[0];
-  if (!solid || !tube || !moves.length) return picture;
-  const zero = zeroOf(tube);
-  const at = (radius: number, {x, phi, b}: Move): Vector => onTube(radius, phi, zero + x - (tube.outer - radius) * Math.tan(b * radians));
+  if (!solid || !moves.length) return picture;
+  const {reach, round, wall, zero} = tube;
+  const high = lifted * reach;
+  /** `deep` below the tip, along the torch. */
+  const below = (move: Move, deep: number): Vector => placeOf({...move, out: Math.min(move.out, high) - deep}, zero - deep * Math.tan(move.b * radians));
+  const over = (move: Move): Vector => placeOf(round ? {...move, out: high} : {...move, out: Math.min(move.out, high)}, zero);
+  const on = (move: Move): Vector => placeOf({...move, out: 1.004 * move.out, across: 1.004 * move.across}, zero);
   const parts = stretches(moves);
   const lines = parts
     .filter(([from]) => moves[from]?.kind !== 'pierce')
     .map(([from, to]) => {
       const kind = (moves[from] as Move).kind;
-      const radius = tube.outer * (kind === 'rapid' ? 1 + lifted : 1.004);
       const path = moves.slice(Math.max(0, from - 1), to + 1);
-      return {points: path.length > 1 ? path.map((move) => onTube(radius, move.phi, zero + move.x)) : [], tone: tones[kind]};
+      const whole = kind === 'rapid' ? path.flatMap((move, i) => (i ? turned(path[i - 1] as Move, move) : [move])) : path;
+      return {points: path.length > 1 ? whole.map(kind === 'rapid' ? over : on) : [], tone: tones[kind]};
     })
     .filter(({points}) => points.length > 1);
   const tool: Solid['tool'] = {
     kind: 'torch',
-    inner: moves.map((move) => at(tube.inner, move)),
-    outer: moves.map((move) => at(tube.outer, move)),
-    size: tube.outer,
+    inner: moves.map((move) => below(move, wall)),
+    outer: moves.map((move) => below(move, 0)),
+    size: reach,
     turn: moves.map(({phi}) => phi),
   };
   return {...picture, solid: {...solid, link: programLink, lines: [...(solid.lines ?? []), ...lines], tool}, played: playedOf(moves, parts)};
 }
-
-/** X0 of the program along the axis: a part's long point at its start, the work point of a cut. */
-const zeroOf = (tube: HoledTube | CutTube): number => ('from' in tube ? bounds([...tube.from.zOuter, ...tube.from.zInner])[0] : 0);
 
 function playedOf(moves: Move[], parts: [number, number][]): Played {
   const seconds: number[] = [];

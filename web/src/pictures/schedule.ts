@@ -1,5 +1,5 @@
 import {isRow, rowsOf, type Row} from '../json';
-import {column, type Chart, type CutTube, type Picture, type Played, type Series, type Solid, type Table, type Tool} from '../picture';
+import {column, type Chart, type CutTube, type Picture, type Played, type Series, type Solid, type Table, type Tool, type Vector} from '../picture';
 import type {Answer} from '../service';
 import {shownUnit} from '../units';
 import {choice, label, measured, number, term, type Term, withUnit} from '../words';
@@ -21,7 +21,7 @@ export async function schedule(body: Row, answer: Answer, context: Context): Pro
   const way = await wayOf(body, answer, context);
   const machine = machineOf(answer.request['machine'], context);
   const times = timesOf(answer.result);
-  const solid = (await source(body, context)) ?? (way && contourSolid(way, answer.result));
+  const solid = (await source(body, context)) ?? (way && !way.section ? contourSolid(way, answer.result) : undefined);
   return {
     ...(solid ? {solid: {...solid, link, ...toolOf(answer, machine, way, times)}} : {}),
     charts: scheduleCharts(answer, machine, way),
@@ -56,6 +56,8 @@ export interface Way {
   zOuter: number[];
   zInner: number[];
   b: number[];
+  /** Of a tube that is not round: places of the tip and of the edge inside, in the tube's frame. */
+  section?: {tip: Vector[]; edge: Vector[]; reach: number};
 }
 
 /** Returns the path of the pulses, by the service's own replay. */
@@ -68,6 +70,7 @@ export async function wayOf(body: Row, answer: Answer, context: Context): Promis
     schedule: Object.fromEntries(['period_us', 'counts', 'start'].map((key) => [key, result[key]])) as Row,
   });
   const path = again.result['path'] as Row;
+  if ('normal_deg' in path) return sectionWay(path, cut as Row, request, context);
   const given = isRow(contour) ? contour : await targetOf(cut as Row, context);
   const outer = Number(given['outer_diameter_mm']) / 2;
   const inner = outer - Number(given['wall_mm']);
@@ -79,6 +82,30 @@ export async function wayOf(body: Row, answer: Answer, context: Context): Promis
   const at = (r: number) => z.map((v, i) => v - sigma * (r - radius) * Math.tan((b[i] as number) * radians));
   const on = (request['motion'] as Row)['speed_on'] === 'inner' ? inner : outer;
   return {outer, inner, on, phi: column(path['phi_deg']), zOuter: at(outer), zInner: at(inner), b};
+}
+
+/** The path around a tube that is not round: the tip keeps to the normal of the wall outside. */
+async function sectionWay(path: Row, cut: Row, request: Row, context: Context): Promise<Way> {
+  const {result} = await context.ask('bevel-tables', without(cut));
+  const section = result['section'] as Row;
+  const [height, width, wall] = ['height_mm', 'width_mm', 'wall_mm'].map((key) => Number(section[key])) as [number, number, number];
+  const machine = machineOf(request['machine'], context) ?? {};
+  const sigma = machine['b_positive'] === 'outer_edge_into_part' ? -1 : 1;
+  const [phi, x, y, zOuter, b] = ['normal_deg', 'x_mm', 'y_mm', 'z_mm', 'b_deg'].map((key) => column(path[key])) as [
+    number[],
+    number[],
+    number[],
+    number[],
+    number[],
+  ];
+  const zInner = zOuter.map((z, i) => z + sigma * wall * Math.tan((b[i] as number) * radians));
+  const tip = phi.map((_, i): Vector => [x[i] as number, y[i] as number, zOuter[i] as number]);
+  const edge = tip.map(([u, v], i): Vector => {
+    const [nx, ny] = onTube(wall, phi[i] as number, 0);
+    return [u - nx, v - ny, zInner[i] as number];
+  });
+  const reach = Math.hypot(height, width) / 2;
+  return {outer: reach, inner: reach - wall, on: reach, phi, zOuter, zInner, b, section: {tip, edge, reach}};
 }
 
 /** Returns diameter, wall and the root's surface of the target. */
@@ -198,13 +225,18 @@ const summed = (pulses: number[], periods: number[]) => {
 };
 
 /** mm/min, over the last 25 periods. */
-function tipSpeeds({on, outer, inner, phi, zOuter, zInner}: Way, period: number): number[] {
+function tipSpeeds({on, outer, inner, phi, zOuter, zInner, section}: Way, period: number): number[] {
   const z = on === inner && on !== outer ? zInner : zOuter;
+  const tip = section?.tip;
+  const between = (from: number, to: number) => {
+    if (!tip) return Math.hypot(on * radians * ((phi[to] as number) - (phi[from] as number)), (z[to] as number) - (z[from] as number));
+    const [a, b] = [tip[from] as Vector, tip[to] as Vector];
+    return Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+  };
   return phi.slice(1).map((_, i) => {
     const to = i + 1;
     const from = Math.max(0, to - mean);
-    const way = Math.hypot(on * radians * ((phi[to] as number) - (phi[from] as number)), (z[to] as number) - (z[from] as number));
-    return (60 * way) / ((to - from) * period);
+    return (60 * between(from, to)) / ((to - from) * period);
   });
 }
 
@@ -253,6 +285,11 @@ const playedOf = (result: Row, {every, period, periods}: Times): Played => ({
 
 /** Returns the moving tool: the torch, or the mill by its axes. */
 function toolOf({request, result}: Answer, machine: Row | undefined, way: Way | undefined, {periods}: Times): {tool?: Tool} {
+  if (way?.section) {
+    const {tip, edge, reach} = way.section;
+    const of = <T>(values: T[]) => periods.map((i) => values[i + 1] as T);
+    return {tool: {kind: 'torch', inner: of(edge), outer: of(tip), size: reach, turn: of(way.phi)}};
+  }
   if (way) {
     const on = (radius: number, z: number[]) => periods.map((i) => onTube(radius, way.phi[i + 1] as number, z[i + 1] as number));
     return {tool: {kind: 'torch', inner: on(way.inner, way.zInner), outer: on(way.outer, way.zOuter), size: way.outer}};
@@ -378,7 +415,7 @@ function cutsOf(result: Row, period: number): Table {
 
 const placeOf = (way: Way, i: number, speed: number): [Term, string][] => [
   ['speed of the cut', withUnit(speed, 'mm/min')],
-  [label('phi_deg'), withUnit(way.phi[i] as number, '°')],
+  [label(way.section ? 'normal_deg' : 'phi_deg'), withUnit(way.phi[i] as number, '°')],
   ['z outside', withUnit(way.zOuter[i] as number, 'mm')],
   ['B of the machine', withUnit(way.b[i] as number, '°')],
 ];

@@ -7,6 +7,7 @@ import {said} from '../hint';
 import type {Row} from '../json';
 import {headed} from '../key';
 import {endpointName} from '../names';
+import {acrossTube} from '../onward';
 import {isSection} from '../pictures/section';
 import {parseProgram, type Program} from '../program';
 import type {Format} from '../schema';
@@ -52,7 +53,8 @@ const complaintsOf = ({errors = []}: Problem): Map<string, string> =>
 
 /** What the service lists for an option. */
 function choicesOf(name: string, lists: Listed | undefined, given: Values, answer: Answer): [string, string][] | undefined {
-  const tabled = lists?.machines.filter(({process}) => process) ?? [];
+  const section = isSection(answer); // cut by machines that move the torch across the tube
+  const tabled = lists?.machines.filter(({process, machine}) => process && (!section || machine.type === acrossTube)) ?? [];
   if (name === 'machine') return tabled.map((each) => [each.name, choice(each.name)]);
   if (name === 'material') {
     const rows = tabled.find((each) => each.name === given['machine'])?.process?.rows ?? [];
@@ -134,6 +136,8 @@ export function Downloads({endpoint, name, body, formats: all, answer, program}:
     program.value = parseProgram(await reply.text());
     come(undefined);
   };
+  /** A process table is chosen only if a machine that suits has one. */
+  const has = ({name}: Option) => !isSection(answer) || !lists || name !== 'machine' || choicesOf(name, lists, given, answer)?.length;
   const shownProgram = formats.find(({media}) => media === 'text/x-gcode' && purpose === 'program');
   return (
     <section class="block" ref={root}>
@@ -153,7 +157,7 @@ export function Downloads({endpoint, name, body, formats: all, answer, program}:
         <fieldset class="asked" key={title}>
           <legend>{title}</legend>
           <div class="options">
-            {shown.map((option) => (
+            {shown.filter(has).map((option) => (
               <FileOption
                 key={option.name}
                 option={option}

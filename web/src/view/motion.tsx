@@ -1,16 +1,19 @@
 import {useEffect, useState} from 'preact/hooks';
 import type {Row} from '../json';
-import {usualMotion} from '../onward';
+import {acrossTube, sectionMotion, usualMotion} from '../onward';
 import type {Chart, Picture} from '../picture';
 import type {Context} from '../pictures/context';
 import {machineOf, motionFacts, scheduleCharts, wayOf} from '../pictures/schedule';
 import {ask, type Reply} from '../service';
 import {Charts} from './plots';
 import {Figures, Table} from './tables';
+import {choice} from '../words';
 import {Verdict} from './verdict';
 
 interface Given {
   cut: Row;
+  /** The bevels of a target that is not round. */
+  section: number[] | undefined;
   context: Context;
   open(body: Row): void;
   focus(pointer: string): void;
@@ -28,14 +31,16 @@ async function asked(of: string, context: Context): Promise<Shown> {
   const reply = await ask('pulse-schedules', body);
   if (!reply.answer) return {of, reply, charts: []};
   const way = await wayOf(body, reply.answer, context);
-  return {of, reply, charts: scheduleCharts(reply.answer, machineOf(usualMotion['machine'], context), way), facts: motionFacts(reply.answer)};
+  return {of, reply, charts: scheduleCharts(reply.answer, machineOf(body['machine'], context), way), facts: motionFacts(reply.answer)};
 }
 
 let last: Shown | undefined; // kept for who comes back to it
 
 /** The pulses of a cut on a machine, at a speed: the next job in line, shown without leaving this one. */
-export function Motion({cut, context, open, focus, failed}: Given) {
-  const body = {cut, ...usualMotion};
+export function Motion({cut, section, context, open, focus, failed}: Given) {
+  // Without a machine that swings the torch, the service's refusal says what is missing.
+  const motion = section ? (sectionMotion(section, context.machines) ?? {...usualMotion, machine: acrossTube}) : usualMotion;
+  const body: Row = {cut, ...motion};
   const key = JSON.stringify(body);
   const [shown, show] = useState(last);
   const [turn, again] = useState(0);
@@ -56,7 +61,7 @@ export function Motion({cut, context, open, focus, failed}: Given) {
   return (
     <>
       <p class="soft">
-        On the five-axis cutter at 600 mm/min.{' '}
+        On the {choice(motion['machine'])} at 600 mm/min.{' '}
         <button type="button" id="open-pulses" onClick={() => open(body)}>
           Change machine, speed, lead …
         </button>

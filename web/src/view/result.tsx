@@ -1,8 +1,11 @@
 import {useMemo} from 'preact/hooks';
 import type {Console} from '../console';
+import {purposesOf} from '../files';
 import {endpointName} from '../names';
 import {without} from '../pictures/context';
+import {bevelsOf} from '../onward';
 import {programmed} from '../pictures/programmed';
+import {isSection} from '../pictures/section';
 import {away, path, type Reply} from '../service';
 import {TabBar} from './controls';
 import {Downloads} from './downloads';
@@ -73,6 +76,12 @@ function Onward() {
           {name}
         </button>
       ))}
+      {console.answer.value?.result['b_sign'] !== 'inward' /* of which a program is refused */ &&
+        purposesOf(console.contract.formats(path(console.endpoint.value))).includes('program') && (
+          <button type="button" data-onward="program" title="The program of a machine, with a preview" onClick={() => console.files('program')}>
+            Program
+          </button>
+        )}
       <button type="button" data-onward="files" onClick={() => console.files()}>
         Files
       </button>
@@ -150,7 +159,7 @@ function Panel({tab}: {tab: string}) {
   if (tab === 'downloads')
     return (
       <Downloads
-        key={endpoint}
+        key={`${endpoint} ${console.wanted.value}`}
         endpoint={endpoint}
         name={console.example.value ?? endpoint}
         body={body}
@@ -163,6 +172,7 @@ function Panel({tab}: {tab: string}) {
     return (
       <Motion
         cut={without(body)}
+        section={isSection(answer) ? bevelsOf(answer.result) : undefined}
         context={context}
         open={(next) => void console.follow('pulse-schedules', next)}
         focus={(pointer) => console.seek(pointer)}
