@@ -5,7 +5,10 @@ const flags = ['--no-sandbox', '--enable-unsafe-swiftshader'];
 
 export const launch = (executablePath) => chromium.launch({executablePath, args: flags});
 
-export async function open(browser, origin, hash = '', {width = 1280, height = 800, theme = 'light', at = '/'} = {}) {
+// Most tests want a job, and not the start page that a bare address shows.
+const firstJob = '#/bevel-tables/source-000-table-1';
+
+export async function open(browser, origin, hash = firstJob, {width = 1280, height = 800, theme = 'light', at = '/'} = {}) {
   const context = await browser.newContext({viewport: {width, height}, colorScheme: theme, acceptDownloads: true, reducedMotion: 'reduce'});
   const page = await context.newPage();
   page.faults = [];

@@ -156,7 +156,7 @@ export async function visited({browser, origin, service}, {chosen = () => true, 
   const wrong = [];
   const kinds = new Set();
   let visits = 0;
-  const page = await open(browser, origin, '', WIDE);
+  const page = await open(browser, origin, undefined, WIDE);
   await answered(page);
   let at = 'bevel-tables/source-000-table-1';
   for (const {endpoint, name} of examples) {

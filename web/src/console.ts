@@ -40,6 +40,7 @@ export class Console {
   readonly job = signal(0); // counts opened jobs; edits belong to the same job
   readonly changes = signal(0); // of the job
   readonly formShown = signal(false);
+  readonly home = signal(false); // the first page is shown, and no job
   readonly lost = signal<string | null>(null); // why the link in the address cannot be read
   readonly lostAs = signal('damaged');
   readonly reply = signal<Reply | undefined>(undefined);
@@ -122,17 +123,16 @@ export class Console {
   async arrive(hash: string): Promise<void> {
     clearTimeout(this.writing);
     const place = await address.read(hash);
-    if (!place && hash && this.job.value) return this.remember(); // a place in this page
+    if (!place && hash && hash !== '#/' && this.job.value) return this.remember(); // a place in this page
+    if (!place) return this.goHome();
     if (place && 'damage' in place) return this.lose(place.damage);
-    const draft = place?.draft ?? (history.state as {draft?: string} | null)?.draft;
-    const stored = draft && place && !place.example ? await draftOf(draft) : undefined;
-    const kept = stored?.endpoint === place?.endpoint ? stored : undefined;
-    if (place?.draft && !kept)
+    const draft = place.draft ?? (history.state as {draft?: string} | null)?.draft;
+    const stored = draft && !place.example ? await draftOf(draft) : undefined;
+    const kept = stored?.endpoint === place.endpoint ? stored : undefined;
+    if (place.draft && !kept)
       return this.lose('This job is kept in the browser that it was made in. Save it there as a file, and open the file here.', 'not here');
     // The draft may be newer than its address, which follows a moment after each change.
-    const {endpoint, example, body, view} = place
-      ? {...place, body: kept?.body ?? place.body}
-      : {...firstJob, body: undefined, view: {} as Record<string, string>};
+    const {endpoint, example, body, view} = {...place, body: kept?.body ?? place.body};
     if (!this.endpoints.some((e) => e.id === endpoint)) return this.lose(`There is no page called "${endpoint}".`);
     if (example && !this.examples.some((e) => e.endpoint === endpoint && e.name === example))
       return this.lose(`${endpointName(endpoint)} has no example called "${example}".`);
@@ -147,10 +147,21 @@ export class Console {
     this.writtenJob = this.job.value;
   }
 
+  private goHome(): void {
+    batch(() => {
+      this.home.value = true;
+      this.lost.value = null;
+    });
+    this.written = '';
+    document.title = 'tubecut';
+    this.told(this.countQuestion());
+  }
+
   /** Reports that a link cannot be read, and shows nothing of another job in its place. */
   private lose(why: string, what = 'damaged'): void {
     batch(() => {
       this.job.value += 1;
+      this.home.value = false;
       this.lost.value = why;
       this.lostAs.value = what;
       this.endpoint.value = '';
@@ -177,6 +188,12 @@ export class Console {
     drawn(() => byId('form').querySelector<HTMLElement>('input, select')?.focus());
   }
 
+  /** A job from the fewest fields, of any endpoint. */
+  fresh(endpoint: string): void {
+    this.endpoint.value = endpoint;
+    this.blank();
+  }
+
   /** `draft`: of a job that has one; else it gets one with its first change. */
   begin(endpoint: string, example: string | undefined, body: Row, edited: boolean, draft?: string): void {
     this.form.flush();
@@ -186,6 +203,7 @@ export class Console {
       this.example.value = example;
       this.edited.value = edited;
       this.taken = undefined;
+      this.home.value = false;
       this.item.value = this.lost.value = null;
       this.job.value += 1;
       rest();
@@ -371,7 +389,7 @@ export class Console {
   }
 
   private async writeHash(): Promise<void> {
-    if (this.lost.value !== null) return;
+    if (this.lost.value !== null || this.home.value) return;
     const job = this.job.value;
     const [tab, item, example] = [this.tab.value, this.item.value, this.example.value];
     const view = {

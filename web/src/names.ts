@@ -1,3 +1,4 @@
+import {tasks} from './tasks';
 import {sentence} from './words';
 
 /** Names of the pages, in their order. */
@@ -14,7 +15,7 @@ const endpointNames: Record<string, string> = {
   grooves: 'Groove',
   'mill-paths': 'Mill path',
 };
-export const endpointOrder = Object.keys(endpointNames);
+export const endpointOrder = tasks.flatMap(({endpoints}) => endpoints);
 export const endpointName = (id: string) => endpointNames[id] ?? sentence(id.replace(/-/g, ' '));
 
 /** Names of examples whose file names are not self-explanatory. */

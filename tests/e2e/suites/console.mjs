@@ -13,7 +13,7 @@ const pill = (page) => page.locator('#verdict .pill').innerText();
 async function computes({browser, origin, service}, width, height) {
   const {text} = await service.post('/v1/bevel-tables', table1);
   const answer = JSON.parse(text);
-  const page = await open(browser, origin, '', {width, height});
+  const page = await open(browser, origin, undefined, {width, height});
   await answered(page);
   assert.equal(await pill(page), answer.verdict.status);
   const count = answer.result.points.phi_deg.length;

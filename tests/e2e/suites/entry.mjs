@@ -60,7 +60,7 @@ export const checks = {
 
   'nothing is checked in the middle of a number, and nothing moves': async ({browser, origin}) => {
     for (const size of [{width: 1280, height: 800}, {width: 390, height: 844}]) {
-      const page = await open(browser, origin, '', size);
+      const page = await open(browser, origin, undefined, size);
       await answered(page);
       if (size.width < 800) await page.locator('#edit').click();
       const wall = field(page, '/target/wall_mm');

@@ -105,7 +105,7 @@ async function agrees(page, name, {result, verdict, parts}, width) {
 export const checks = {
   'lists, cut list and picture tell of the members that the answer has, wide and light, and narrow and dark': async ({browser, origin, service}) => {
     assert.ok(names.length >= 6);
-    const page = await open(browser, origin, '', {height: 844});
+    const page = await open(browser, origin, undefined, {height: 844});
     await answered(page);
     const views = [[1280, 'light'], [390, 'dark']];
     for (const name of names) {

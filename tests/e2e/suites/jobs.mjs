@@ -2,7 +2,8 @@
 import {strict as assert} from 'node:assert';
 import {execFileSync} from 'node:child_process';
 import {readFile} from 'node:fs/promises';
-import {answered, open, then} from '../browser.mjs';
+import {answered, faint, open, then} from '../browser.mjs';
+import {barred, unseen} from '../seen.mjs';
 
 const example = async (name) => JSON.parse(await readFile(new URL(`../../../examples/${name}.json`, import.meta.url)));
 const field = (page, pointer) => page.locator(`[data-pointer="${pointer}"]`);
@@ -68,6 +69,43 @@ export const checks = {
     await opened(page, 'drawing.json', '{"colour": "red"}');
     await page.locator('#trouble', {hasText: 'drawing.json is not a job'}).waitFor();
     assert.equal(await endpoint(page), 'frames', 'the job that was there stays');
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  },
+
+  'the start page leads to tasks, to examples with pictures, and back to recent jobs': async ({browser, origin}) => {
+    const page = await open(browser, origin, '', {at: '/'});
+    await answered(page);
+    assert.equal(await page.locator('#start h1').count(), 1);
+    assert.deepEqual(await page.locator('#start [data-task] h2').allInnerTexts(), ['A joint', 'A part', 'A frame', 'My machine']);
+    assert.ok(await page.locator('#views').isHidden());
+    assert.equal(await page.locator('#recent').count(), 0, 'nothing was done here yet');
+    assert.ok(await page.locator('.examples svg line').count() > 30, 'the examples are drawn');
+    const came = await page.evaluate(() => performance.getEntriesByType('resource').map(({name}) => name).filter((name) => /stage-/.test(name)));
+    assert.deepEqual(came, [], 'without the 3D, which a job loads');
+    assert.deepEqual([...await barred(page), ...await unseen(page), ...await faint(page)], []);
+    await then(page, () => page.locator('[data-new=parts]').click());
+    assert.equal(await endpoint(page), 'parts');
+    await then(page, () => page.goBack());
+    await then(page, () => page.locator('[data-task=part] .examples a').first().click());
+    await then(page, () => page.locator('[data-pointer="/target/id"]').fill('<b>rail</b> 7'));
+    await page.waitForURL(/#\/parts\/~/);
+    await then(page, () => page.locator('.brand').click());
+    const job = page.locator('#recent li');
+    await job.nth(1).waitFor();
+    assert.match(await job.first().innerText(), /Part: <b>rail<\/b> 7/, 'the newest is the first');
+    await then(page, () => job.first().locator('a').click());
+    assert.equal(await page.locator('[data-pointer="/target/id"]').inputValue(), '<b>rail</b> 7');
+    await then(page, () => page.goBack());
+    assert.ok(await page.locator('#start').isVisible());
+    await then(page, () => page.locator('[data-task=frame] .examples a').first().click());
+    assert.match(page.url(), /#\/frames\/roll-cage-of-12/);
+    assert.ok(await page.locator('#start').isHidden());
+    await then(page, () => page.locator('.brand').click());
+    await page.setViewportSize({width: 390, height: 844});
+    assert.deepEqual(await unseen(page), []);
+    await page.locator('#recent .remove').first().click();
+    assert.equal(await job.count(), 1);
     assert.deepEqual(page.faults, []);
     await page.context().close();
   },

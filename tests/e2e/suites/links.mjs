@@ -156,7 +156,7 @@ export const checks = {
   },
 
   'a service that is away is said to be, and asked again': async ({browser, origin}) => {
-    const page = await open(browser, origin, '', {width: 390, height: 844});
+    const page = await open(browser, origin, undefined, {width: 390, height: 844});
     await answered(page);
     await formed(page);
     await page.route('**/v1/**', (route) => route.abort('connectionrefused'));

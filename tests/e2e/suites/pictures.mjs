@@ -133,7 +133,7 @@ export const checks = {
 
   'a complaint stands under its own field, in the words of the service': async ({browser, origin}) => {
     for (const width of [1280, 390]) {
-      const page = await open(browser, origin, '', {width, height: 800});
+      const page = await open(browser, origin, undefined, {width, height: 800});
       await answered(page);
       await formed(page);
       const [wall, diameter] = [field(page, '/target/wall_mm'), field(page, '/target/outer_diameter_mm')];

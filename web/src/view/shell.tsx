@@ -2,6 +2,7 @@ import type {ComponentChildren} from 'preact';
 import type {Console} from '../console';
 import {endpointName, exampleName} from '../names';
 import {pressed} from '../preset';
+import {byTask} from '../tasks';
 import {choose, system} from '../units';
 import {copied} from './controls';
 import {RequestForm} from './form';
@@ -10,17 +11,18 @@ import {Hint} from './hint';
 import {useModel} from './model';
 import {Page, useConsole} from './page';
 import {Result} from './result';
+import {Start} from './start';
 import {ThemeButton} from './theme';
 
 /** The frame of every page: `console` once the service has sent its endpoints. */
 export function Shell({console, children}: {console?: Console | undefined; children?: ComponentChildren}) {
   return (
     <Page.Provider value={console ?? null}>
-      <a class="skip" href="#views">
+      <a class="skip" href={console?.home.value ? '#start' : '#views'}>
         Skip to the result
       </a>
       <header class="top">
-        <a class="brand" href="#/bevel-tables/source-000-table-1">
+        <a class="brand" href="#/" title="Start">
           <img src="/mark.svg" width={26} height={26} alt="" /> <span>tubecut</span>
         </a>
         <nav id="endpoints" aria-label="What to compute">
@@ -34,9 +36,10 @@ export function Shell({console, children}: {console?: Console | undefined; child
           <a href="/docs">API</a>
         </div>
       </header>
-      <main>
+      <main class={console?.home.value ? 'home' : ''}>
+        {console && <Start />}
         {console && <Ask />}
-        <section id="views" aria-label="Result" tabIndex={-1}>
+        <section id="views" aria-label="Result" tabIndex={-1} hidden={console?.home.value}>
           {console ? (
             <Result />
           ) : (
@@ -51,13 +54,23 @@ export function Shell({console, children}: {console?: Console | undefined; child
 }
 
 function Pages() {
-  const {pages, contract, endpoint} = useConsole();
+  const {pages, contract, endpoint, home} = useConsole();
   return (
     <>
-      {pages.map(({id, path}) => (
-        <a key={id} href={`#/${id}`} data-endpoint={id} title={contract.summary(path)} aria-current={id === endpoint.value ? 'page' : undefined}>
-          {endpointName(id)}
-        </a>
+      {byTask(pages, ({id}) => id).map(({task, items}) => (
+        <span key={task?.id} class="group-of" role="group" data-title={task?.name ?? 'More'} aria-label={task?.name ?? 'More'}>
+          {items.map(({id, path}) => (
+            <a
+              key={id}
+              href={`#/${id}`}
+              data-endpoint={id}
+              title={contract.summary(path)}
+              aria-current={!home.value && id === endpoint.value ? 'page' : undefined}
+            >
+              {endpointName(id)}
+            </a>
+          ))}
+        </span>
       ))}
     </>
   );
@@ -71,7 +84,7 @@ function Links() {
         id="share"
         type="button"
         title="Copy a link to exactly this job"
-        disabled={console.lost.value !== null}
+        disabled={console.lost.value !== null || console.home.value}
         onClick={() => void console.share(copied)}
       >
         {console.linked.value}
@@ -96,7 +109,7 @@ function Ask() {
     take: (frame) => console.begin('frames', undefined, frame, true),
   });
   return (
-    <section id="ask" aria-label="Request" class={shown ? 'open' : ''}>
+    <section id="ask" aria-label="Request" class={shown ? 'open' : ''} hidden={console.home.value}>
       <div class="entry">
         <div class="pick">
           <label class="offscreen" for="example">
