@@ -8,17 +8,22 @@ import {number, ticks, withUnit} from './words';
 const left = 56,
   right = 12,
   named = 16, // the x axis' name
-  ribbon = 7;
+  ribbon = 7,
+  dragged = 6; // px, from where on a drag is no click
 
 /** One chart's curves, cursor and axes, in a place of the page. */
 export class Plot {
   private readonly plot: uPlot;
   private readonly forget: () => void;
   private width = 0;
+  private zoomed: [number, number] | undefined;
+  private hidden: ReadonlySet<string> = new Set();
 
   constructor(
     private readonly frame: HTMLElement,
     private chart: Chart,
+    /** Hears of an interval that is dragged over, or of none. */
+    private readonly chose: (span: [number, number] | undefined) => void = () => {},
   ) {
     this.width = frame.clientWidth;
     this.plot = new uPlot(this.options(), this.data(), frame);
@@ -30,6 +35,27 @@ export class Plot {
     this.chart = chart;
     this.fit();
     this.plot.setData(this.data());
+  }
+
+  /** Shows an interval of the axis, or the whole of it. */
+  zoom(span: [number, number] | undefined): void {
+    if (span?.join() === this.zoomed?.join()) return;
+    this.zoomed = span;
+    this.plot.setData(this.data());
+  }
+
+  hide(hidden: ReadonlySet<string>): void {
+    this.hidden = hidden;
+    this.chart.series.forEach(({name}, i) => {
+      const show = !hidden.has(name);
+      if (this.plot.series[i + 1]?.show !== show) this.plot.setSeries(i + 1, {show});
+    });
+    this.plot.redraw();
+  }
+
+  private whole(): null {
+    this.chose(undefined);
+    return null;
   }
 
   /** The width is read when it changes and not with each answer: reading it lays the whole page out. */
@@ -75,7 +101,7 @@ export class Plot {
       ...this.size(),
       padding: [8, right, 0, 0],
       legend: {show: false},
-      cursor: {y: false, drag: {x: false, y: false}, points: {size: 7}},
+      cursor: {y: false, drag: {x: !chart.wrap, y: false, setScale: false}, bind: {dblclick: () => () => this.whole()}, points: {size: 7}},
       scales: {
         x: {time: false, range: () => this.across()},
         y: {range: (_, low, high) => this.room(low, high)},
@@ -106,6 +132,13 @@ export class Plot {
       hooks: {
         drawClear: [(u) => this.under(u)],
         draw: [(u) => this.over(u)],
+        setSelect: [
+          (u) => {
+            const {left: from, width} = u.select;
+            if (width > dragged) this.chose([u.posToVal(from, 'x'), u.posToVal(from + width, 'x')]);
+            if (width) u.setSelect({left: 0, width: 0, top: 0, height: 0}, false);
+          },
+        ],
         setCursor: [
           (u) => {
             if (u.cursor.left !== undefined && u.cursor.left >= 0 && u.cursor.idx !== null && u.cursor.idx !== undefined) point(this.chart.link, u.cursor.idx);
@@ -117,6 +150,7 @@ export class Plot {
   }
 
   private across(): [number, number] {
+    if (this.zoomed) return this.zoomed;
     const values = this.chart.x.values;
     const length = span(this.chart);
     const begin = values[0] ?? 0;
@@ -144,11 +178,13 @@ export class Plot {
     ctx.save();
     if (this.chart.wrap) this.wrapped(u);
     for (const band of this.chart.bands ?? []) {
+      if (this.hidden.has(band.text)) continue;
       const from = u.valToPos(band.from, 'x', true),
         to = u.valToPos(band.to, 'x', true);
       ctx.globalAlpha = 0.2;
       ctx.fillStyle = colour(band.tone);
-      ctx.fillRect(from, bbox.top, Math.max(to - from, 1), bbox.height);
+      const [start, end] = [Math.max(from, bbox.left), Math.min(Math.max(to, from + 1), bbox.left + bbox.width)];
+      if (end > start) ctx.fillRect(start, bbox.top, end - start, bbox.height);
     }
     ctx.restore();
   }
@@ -202,6 +238,7 @@ export class Plot {
     ctx.textBaseline = 'alphabetic';
     for (const mark of this.chart.marks ?? []) {
       const at = u.valToPos(mark.x, 'x', true);
+      if (this.hidden.has(mark.text) || at < bbox.left - 1 || at > bbox.left + bbox.width + 1) continue;
       ctx.strokeStyle = ctx.fillStyle = colour(mark.tone);
       if (mark.y === undefined) {
         ctx.setLineDash([2 * scale, 4 * scale]);
@@ -244,6 +281,7 @@ export class Plot {
     let [last, used] = [-Infinity, 0];
     for (const mark of this.chart.marks ?? []) {
       const at = u.valToPos(mark.x, 'x', true);
+      if (at < bbox.left - 1 || at > bbox.left + bbox.width + 1) continue;
       if (at - last > 13 * scale) used = 0;
       const right = at + 13 * scale < bbox.left + bbox.width;
       ctx.save();
@@ -260,7 +298,8 @@ export class Plot {
   private ribbon(u: uPlot): void {
     const {ctx, bbox} = u;
     const height = ribbon * devicePixelRatio;
-    const x = [...this.chart.x.values.map((value) => u.valToPos(value, 'x', true)), bbox.left + bbox.width];
+    const inside = (at: number) => Math.min(Math.max(at, bbox.left), bbox.left + bbox.width);
+    const x = [...this.chart.x.values.map((value) => inside(u.valToPos(value, 'x', true))), bbox.left + bbox.width];
     for (const [from, to, partner] of runs(this.chart.partners ?? [])) {
       ctx.fillStyle = partnerColour(partner);
       const start = x[from] as number;
@@ -275,21 +314,35 @@ export class Plot {
   }
 }
 
-/** The arrow keys move the cursor along a chart. */
-export function walk({link, x}: Chart, event: KeyboardEvent): void {
+/** The interval of an axis, narrower or wider about the cursor; nothing for the whole of it. */
+export function narrowed({link, x, period}: Chart, now: [number, number] | undefined, by: number): [number, number] | undefined {
+  const [first, last] = [x.values[0] ?? 0, period ?? x.values[x.values.length - 1] ?? 1];
+  const [from, to] = now ?? [first, last];
+  const middle = x.values[pointed(link) ?? -1] ?? (from + to) / 2;
+  const half = (by * (to - from)) / 2;
+  if (!by || 2 * half >= last - first) return undefined;
+  const start = Math.min(Math.max(middle - half, first), last - 2 * half);
+  return [start, start + 2 * half];
+}
+
+/** The arrow keys move the cursor along a chart; plus, minus and 0 zoom about it. */
+export function walk({link, x}: Chart, event: KeyboardEvent, zoom: (by: number) => void): void {
   const count = x.values.length;
   const now = pointed(link);
   const by = event.shiftKey ? 10 : 1;
   if (event.key === 'ArrowRight') point(link, now === null ? 0 : Math.min(count - 1, now + by));
   else if (event.key === 'ArrowLeft') point(link, now === null ? count - 1 : Math.max(0, now - by));
   else if (event.key === 'Escape') point(link, null);
+  else if (event.key === '+' || event.key === '=') zoom(0.5);
+  else if (event.key === '-') zoom(2);
+  else if (event.key === '0') zoom(0);
   else return;
   event.preventDefault();
 }
 
 /** Returns the text alternative of a chart. */
 export const described = ({title, unit, x, series}: Chart) =>
-  `${title}: ${series.map((s) => `${s.name} ${spread(s.values, unit)}`).join(', ')} over ${x.name}; ${x.values.length} points. Left and right move the cursor.`;
+  `${title}: ${series.map((s) => `${s.name} ${spread(s.values, unit)}`).join(', ')} over ${x.name}; ${x.values.length} points. Left and right move the cursor, plus and minus zoom.`;
 
 /** "from 18.7 to 72.6°", for those who do not see it. */
 function spread(values: (number | null)[], of: string): string {

@@ -6,11 +6,12 @@ import {remember, remembered, type Purpose} from './files';
 import {Form} from './form';
 import {clone, type Row} from './json';
 import {keyed} from './key';
-import {rest} from './links';
+import {point, rest} from './links';
 import {endpointName, endpointOrder, tabs} from './names';
 import {leadsOf, type Lead} from './onward';
 import type {Picture} from './picture';
 import {pictured} from './pictures';
+import {shownAt} from './pictures/axis';
 import {contextOf, without, type Context} from './pictures/context';
 import * as preset from './preset';
 import {jobOf} from './recognise';
@@ -370,6 +371,18 @@ export class Console {
     this.formShown.value = true;
     this.form.select(pointer);
     drawn(() => this.form.focus(pointer));
+  }
+
+  /** Leads to the place of a warning in the charts, if one has it: the cursor is there. */
+  shows(warning: Answer['warnings'][number]): (() => void) | undefined {
+    const found = shownAt(this.picture.value?.charts ?? [], warning);
+    return (
+      found &&
+      (() => {
+        point(found.chart.link, found.index);
+        document.getElementById(`chart-${found.chart.id}`)?.scrollIntoView({block: 'nearest'});
+      })
+    );
   }
 
   /** Goes on to the next job in line; this one is a step to go back to, as it is seen now. */

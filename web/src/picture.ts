@@ -53,7 +53,13 @@ export interface Section {
   count: number;
   low: [number, number];
   high: [number, number];
-  at(index: number): {title: string; lines: SectionLine[]};
+  at(index: number): {
+    title: string;
+    lines: SectionLine[];
+    moved?: (place: [number, number]) => [number, number];
+    points?: {at: [number, number]; text: string}[];
+    note?: string;
+  };
 }
 export interface SectionLine {
   points: [number, number][];
@@ -115,6 +121,10 @@ export interface Chart {
   x: {name: string; unit: string; values: number[]};
   /** Of a closed curve: x of the whole turn, where it meets its beginning. */
   period?: number;
+  /** Length of a turn around a round tube, mm: x is a part of it, or an angle. */
+  turn?: number;
+  /** Seconds of a period, if x is time. */
+  pace?: number;
   unit: string;
   series: Series[];
   height?: number;

@@ -60,6 +60,52 @@ async function whole({browser, origin}, width, height) {
 }
 
 export const checks = {
+  'a chart shows its values, zooms, hides and changes its axis, and warnings lead to it': async ({browser, origin}) => {
+    const page = await open(browser, origin, '#/bevel-tables/table-1-torch-45-deg');
+    await answered(page);
+    const [bevel, height] = ['bevel', 'height'].map((id) => page.locator(`#chart-${id}`));
+    await page.locator('#verdict .show').first().click();
+    assert.match(await bevel.locator('.under').innerText(), /^52\.89 mm\s/, 'at the beginning of the warning');
+    assert.equal(await bevel.locator('.under i').count(), 3, 'a value of each line');
+    assert.ok((await bevel.locator('figcaption').innerText()).includes('root opens'), 'a warning in its chart');
+    await page.locator('[data-axis="°"]').click();
+    assert.match(await bevel.locator('.under').innerText(), /^101°/);
+    await page.locator('[data-axis=mm]').click();
+    const area = await height.locator('.u-over').boundingBox();
+    const drag = async (from, to) => {
+      await page.mouse.move(area.x + from * area.width, area.y + 30);
+      await page.mouse.down();
+      await page.mouse.move(area.x + to * area.width, area.y + 30, {steps: 3});
+      await page.mouse.up();
+    };
+    const span = async (chart) => ((await chart.locator('.plot').getAttribute('data-span')) ?? '').split(' ').filter(Boolean).map(Number);
+    await drag(0.25, 0.5);
+    const [from, to] = await span(height);
+    assert.ok(to > from && Math.abs(2 * from - to) < 0.06 * to, `${from} to ${to}`);
+    assert.deepEqual(await span(bevel), [from, to], 'charts of one axis together');
+    await bevel.locator('.unzoom').click();
+    assert.deepEqual(await span(height), []);
+    await height.locator('.plot').focus();
+    await page.keyboard.press('+');
+    assert.equal((await span(height)).length, 2);
+    await page.keyboard.press('0');
+    assert.deepEqual(await span(height), []);
+    const drawing = () => bevel.locator('canvas').evaluate((canvas) => canvas.toDataURL());
+    const before = await drawing();
+    const key = bevel.locator('.key', {hasText: 'least that clears'});
+    await key.click();
+    assert.equal(await key.getAttribute('aria-pressed'), 'false');
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    assert.notEqual(await drawing(), before);
+    await then(page, () => page.evaluate(() => {
+      location.hash = '#/grooves/case-a-right-angle';
+    }));
+    assert.deepEqual((await page.locator('#section [data-point]').allTextContents()).map((text) => text.trim()), ['P1', 'P2', 'P3']);
+    assert.match(await page.locator('#section figcaption').innerText(), /areas A 60, B 0, C 0, D 120, E 180 mm²/);
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  },
+
   'a value far under its limit holds, as the service says': async ({browser, origin, service}) => {
     const under = [];
     for (const example of await examplesOf(service)) {

@@ -66,7 +66,7 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
   const torch = isRow(request['torch']) ? request['torch'] : {};
   const z = (name: string) => column(points[name]);
   const events = onRoot(request, result);
-  const shared = {link, partners, partnerNames: given.names};
+  const shared = {link, partners, partnerNames: given.names, turn: whole};
   const charts: Chart[] = [
     {
       ...shared,

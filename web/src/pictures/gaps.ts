@@ -16,7 +16,7 @@ const overPhi = (points: Row) => ({x: {name: 'φ', unit: '°', values: column(po
 /** The gap of the square cut over phi, or what else is the way round, and of the same end with a bevel. */
 export function gapChart(
   points: Row,
-  shared: Pick<Chart, 'link' | 'partners' | 'partnerNames'>,
+  shared: Pick<Chart, 'link' | 'partners' | 'partnerNames' | 'turn'>,
   over: Pick<Chart, 'x' | 'period' | 'bands' | 'marks'> = overPhi(points),
 ): Chart {
   const of = (name: string) => column(points[name]);

@@ -1,7 +1,7 @@
 import {isRow, type Json, type Row} from '../json';
-import {column, type Chart, type Picture, type Ribbon, type Solid, type Table, type Vector} from '../picture';
+import {column, type Chart, type Picture, type Ribbon, type Section, type Solid, type Table, type Vector} from '../picture';
 import type {Answer} from '../service';
-import {about, label, measured, term, unit, withUnit} from '../words';
+import {about, label, measured, number, term, unit, withUnit} from '../words';
 import {facts, figure, figures, plural, readings, text} from './facts';
 import {without, type Context} from './context';
 import {bounds, partner, tube} from './geometry';
@@ -29,7 +29,7 @@ export async function groove(_: Row, answer: Answer, context: Context): Promise<
   const curves = await curvesOf(request, context);
   return {
     solid: solid(request, context, curves),
-    section: sectionOf('groove', curves, omega),
+    section: named(sectionOf('groove', curves, omega), sections),
     charts: [
       chart('height', 'Height of the groove', [['height_mm', 'after']], {zero: true}),
       chart(
@@ -50,6 +50,30 @@ export async function groove(_: Row, answer: Answer, context: Context): Promise<
     figures: figures(result, ['filler_area_mm2', 'height_min_mm', 'height_max_mm', 'weld_length_mm', 'filler_volume_mm3']),
     said: `Filler ${measured('filler_area_mm2', Number(result['filler_area_mm2']))} in every section; the groove is ${measured('height_min_mm', Number(result['height_min_mm']))} to ${measured('height_max_mm', Number(result['height_max_mm']))} high.`,
     readout: (i) => readings(sections, i, Object.keys(sections).slice(0, 10), 'sections'),
+  };
+}
+
+/** The section with the points and areas that its columns name, of the filler between P1, P2 and P3. */
+function named(section: Section, sections: Row): Section {
+  const of = (name: string) => column(sections[name]);
+  const [xs, ys] = ['x', 'y'].map((axis) => ['p1', 'p2', 'p3'].map((name) => of(`${name}_${axis}_mm`))) as [number[][], number[][]];
+  const areas = ['a', 'b', 'c', 'd', 'e'].map((name) => [name.toUpperCase(), of(`area_${name}_mm2`)] as const);
+  const {moved: flat} = section.at(0);
+  const right = flat ? bounds((xs[1] as number[]).map((x) => flat([x, 0])[0]))[1] : 0;
+  return {
+    ...section,
+    high: [Math.max(section.high[0], 1.15 * right), section.high[1]],
+    at: (i) => {
+      const {title, lines, moved} = section.at(i);
+      if (!moved) return {title, lines};
+      const points = xs.map((x, k) => ({at: moved([x[i] as number, (ys[k] as number[])[i] as number]), text: `P${k + 1}`}));
+      return {
+        title,
+        lines: [...lines, {points: points.map(({at}) => at), tone: 'after'}],
+        points,
+        note: `areas ${areas.map(([name, values]) => `${name} ${number(values[i] as number, 'mm²')}`).join(', ')} mm²`,
+      };
+    },
   };
 }
 

@@ -110,7 +110,7 @@ export function sectionOf(link: string, curves: Curves, omega: number[], tool?: 
       const lines: SectionLine[] = [{points: moved([...corners, [thick, top], [thin, top]]), tone: 'steel'}];
       if (tool?.before) lines.push({points: moved(outline(tool.before[i % all.length] as Pose, tool)), tone: 'before', dashed: true});
       if (tool) lines.push({points: moved(outline(tool.poses[i % all.length] as Pose, tool)), tone: 'after'});
-      return {title: `Section at ω ${number(omega[i % all.length] as number, '°')}°`, lines};
+      return {title: `Section at ω ${number(omega[i % all.length] as number, '°')}°`, lines, moved: ([s, z]) => [s - thin, z - base]};
     },
   };
 }

@@ -160,7 +160,7 @@ export function scheduleCharts(answer: Answer, machine: Row | undefined, way: Wa
     }));
   const each = (make: (pulses: number[], axis: string) => number[]): Series[] =>
     axes.map((axis, i) => ({name: axis, tone: tones[i % tones.length] as string, values: make(column(counts[axis]), axis)}));
-  const shared = {link, x: {name: 'time', unit: 's', values: periods.map((i) => i * period)}, unit: '', marks, bands, zero: true};
+  const shared = {link, x: {name: 'time', unit: 's', values: periods.map((i) => i * period)}, pace: period, unit: '', marks, bands, zero: true};
   const charts: Chart[] = [{...shared, id: 'pulses', title: 'Pulses per period', series: each((pulses) => extremes(pulses, times)), height: 210}];
   if (machine) {
     const of = (pulses: number[], axis: string) => extremes(shares(pulses, machine, axis, period), times);

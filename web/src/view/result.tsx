@@ -38,6 +38,7 @@ export function Result() {
             focus={(pointer) => console.seek(pointer)}
             again={() => console.compute()}
             facts={said.value}
+            seen={(warning) => console.shows(warning)}
             check={() => void console.opinion.ask(reply.value as Reply)}
           />
         ) : (
@@ -128,7 +129,7 @@ function Pictures() {
       <section id="inspector" aria-label="Members, joints and parts" hidden={!inspected}>
         {inspected && <Inspector given={inspected} item={console.item.value} ways={ways} />}
       </section>
-      <Charts id="charts" charts={charts} failed={console.failed} />
+      <Charts id="charts" charts={charts} failed={console.failed} warnings={console.answer.value?.warnings} job={console.job.value} />
     </div>
   );
 }

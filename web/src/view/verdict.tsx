@@ -17,13 +17,15 @@ interface Given {
   facts?: string;
   /** Has the independent checker look at the answer. */
   check?: () => void;
+  /** Leads to the place of a warning in a chart, if one has it. */
+  seen?: (warning: Warning) => (() => void) | undefined;
 }
 /** Verdict, reasons and failed checks, or the problem: in plain sight above the pictures. */
-export function Verdict({reply: {answer, problem, milliseconds = 0}, focus, again, facts = '', check}: Given) {
+export function Verdict({reply: {answer, problem, milliseconds = 0}, focus, again, facts = '', check, seen}: Given) {
   if (problem?.code === away.code) return <Silence title={problem.title} detail={problem.action} again={again} />;
   if (problem?.code === 'unauthorized') return <Unlock key={tried()} go={again} />;
   if (problem) return <Refusal problem={problem} focus={focus} />;
-  return answer ? <Approval answer={answer} milliseconds={milliseconds} focus={focus} facts={facts} check={check} /> : null;
+  return answer ? <Approval answer={answer} milliseconds={milliseconds} focus={focus} facts={facts} check={check} seen={seen} /> : null;
 }
 
 interface Silent {
@@ -95,8 +97,9 @@ interface Approved {
   focus: Focus;
   facts: string;
   check: (() => void) | undefined;
+  seen: Given['seen'];
 }
-function Approval({answer, milliseconds, focus, facts, check}: Approved) {
+function Approval({answer, milliseconds, focus, facts, check, seen}: Approved) {
   const {status, reasons} = answer.verdict;
   const {passed, checks} = answer.verification;
   const failed = passed ? [] : checks.filter((check) => !holds(check));
@@ -107,7 +110,7 @@ function Approval({answer, milliseconds, focus, facts, check}: Approved) {
   const warnings = answer.warnings.filter((warning) => warning.severity === 'cut');
   // A note does not affect the verdict: it is shown on demand.
   const notes = answer.warnings.filter((warning) => warning.severity === 'note');
-  const told = (given: Warning[]) => given.map((warning, i) => <Told key={i} warning={warning} focus={focus} />);
+  const told = (given: Warning[]) => given.map((warning, i) => <Told key={i} warning={warning} focus={focus} show={seen?.(warning)} />);
   const grouped = answer.job.endpoint === 'frames' && warnings.length > 0;
   return (
     <div class={`verdict ${tone}`} {...scrolled}>
@@ -148,13 +151,22 @@ function Approval({answer, milliseconds, focus, facts, check}: Approved) {
   );
 }
 
-export function Told({warning: {code, severity, detail, action, pointer}, focus}: {warning: Warning; focus: Focus}): ComponentChildren {
+export function Told({
+  warning: {code, severity, detail, action, pointer},
+  focus,
+  show,
+}: {warning: Warning; focus: Focus; show?: (() => void) | undefined}): ComponentChildren {
   return (
     <li class={severity}>
       <b>{sentence(choice(code))}</b>
       {detail ? `: ${plain(detail).replace(/\.$/, '')}. ` : ' '}
       {action ? `${plain(action)} ` : null}
       {pointer && <Place pointer={pointer} focus={focus} />}
+      {show && (
+        <button type="button" class="show" title="Show its place in the chart" onClick={show}>
+          In the chart
+        </button>
+      )}
     </li>
   );
 }
