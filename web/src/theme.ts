@@ -16,8 +16,11 @@ function stored(): string | null {
 }
 const chosen = signal(stored());
 
+/** Paper is light, whatever the theme. */
+export const onWhite = signal(false);
+
 /** Dark or light: the last choice, else the system's. */
-export const dark = computed(() => (chosen.value ? chosen.value === 'dark' : wished.value));
+export const dark = computed(() => !onWhite.value && (chosen.value ? chosen.value === 'dark' : wished.value));
 effect(() => {
   document.documentElement.dataset['theme'] = dark.value ? 'dark' : 'light';
 });

@@ -60,6 +60,48 @@ async function whole({browser, origin}, width, height) {
 }
 
 export const checks = {
+  'a model is seen from its sides, measured, fitted as it grows, and printed in light colours': async ({browser, origin}) => {
+    const page = await open(browser, origin, '#/parts/shs-base-post', {theme: 'dark'});
+    await answered(page);
+    const canvas = page.locator('.canvas canvas');
+    const seen = [(await pixels(page)).sum];
+    for (const side of ['front', 'right', 'top']) {
+      await page.locator(`[data-side=${side}]`).click();
+      seen.push((await pixels(page)).sum);
+    }
+    await page.locator('[data-side=front]').click();
+    await page.locator('#view-parallel').click();
+    seen.push((await pixels(page)).sum);
+    assert.equal(new Set(seen).size, 5, 'each view is another picture');
+    assert.equal(await canvas.evaluate((node) => node.style.touchAction), 'pan-x pan-y', 'one finger scrolls the page');
+    await page.locator('#view-measure').click();
+    assert.match(await page.locator('#measured').innerText(), /Click two points/);
+    const {x, y, width, height} = await canvas.boundingBox();
+    for (const share of [0.3, 0.7]) await page.mouse.click(x + share * width, y + height / 2);
+    await page.locator('#measured', {hasText: 'mm (x'}).waitFor();
+    const [length, , , along] = (await page.locator('#measured').innerText()).match(/[\d.]+/g).map(Number);
+    assert.ok(length > 300 && length < 900 && Math.abs(length - along) < 30, `${length}, ${along} of them along the member`);
+    const far = async () => Number(await canvas.getAttribute('data-distance'));
+    const before = await far();
+    await then(page, () => field(page, '/target/length_mm').fill('1800'));
+    assert.ok(await far() > 1.7 * before, `${before} mm, then ${await far()}`);
+    await page.evaluate(() => {
+      window.print = () => {
+        const {right} = document.querySelector('#chart-gap-finish canvas').getBoundingClientRect();
+        window.paper = {theme: document.documentElement.dataset.theme, text: document.querySelector('#paper').innerText, head: document.querySelector('.top').checkVisibility(), right};
+      };
+    });
+    await page.locator('#print').click();
+    await page.locator('body:not(.paper)').waitFor();
+    const paper = await page.evaluate(() => window.paper);
+    assert.deepEqual([paper.theme, paper.head], ['light', false]);
+    assert.match(paper.text, /^tubecut: Part[^]*1800 mm[^]*balcony 7/);
+    assert.ok(paper.right > 600 && paper.right <= 700, `the chart is as wide as the paper: ${paper.right}`);
+    assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'dark');
+    clean(page);
+    await page.context().close();
+  },
+
   'a chart shows its values, zooms, hides and changes its axis, and warnings lead to it': async ({browser, origin}) => {
     const page = await open(browser, origin, '#/bevel-tables/table-1-torch-45-deg');
     await answered(page);

@@ -4,10 +4,11 @@ import {
   Group,
   HemisphereLight,
   InstancedMesh,
-  type Mesh,
+  Mesh,
   PerspectiveCamera,
   Raycaster,
   Scene,
+  TOUCH,
   Vector2,
   Vector3,
   WebGLRenderer,
@@ -20,7 +21,9 @@ import type {Solid, Vector} from '../picture';
 import {Labels} from './labels';
 import {Members} from './members';
 import {Beam, Cone, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from './meshes';
+import {Measure, snapped} from './measure';
 import {openings} from './openings';
+import {lens, refit, towards, type Side} from './views';
 
 // Drawn pixels per page pixel, in each direction. Without a graphics card one takes 30 ms and four
 // take 90, so a changing picture is drawn coarse, and once more fine when nothing has changed for a
@@ -35,7 +38,7 @@ const still = 4; // pixels that a click may move
 export class Stage {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
-  private readonly camera = new PerspectiveCamera(28, 1, 1, 100000);
+  private readonly camera = new PerspectiveCamera(lens.wide, 1, 1, 100000);
   private controls: OrbitControls;
   private content = new Group();
   private partners = new Group();
@@ -50,6 +53,10 @@ export class Stage {
   private pressed: PointerEvent | null = null;
   private waiting = false;
   private settling = 0;
+  private side: Side = 'first';
+  private fitted = 1; // the distance at which the model is seen whole
+  private measure = new Measure();
+  private measuring: ((points: [Vector3, Vector3] | undefined) => void) | null = null;
   private turned = false; // by hand; until then the view fits the frame
 
   constructor(private readonly root: HTMLElement) {
@@ -73,6 +80,10 @@ export class Stage {
       this.pressed = event;
     });
     domElement.addEventListener('click', (event) => this.choose(event));
+    // One finger scrolls the page; two turn the model, and the page stays.
+    const two = (event: TouchEvent) => event.touches.length > 1 && event.preventDefault();
+    domElement.addEventListener('touchstart', two, {passive: false});
+    domElement.addEventListener('touchmove', two, {passive: false});
     domElement.addEventListener('keydown', (event) => this.turn(event));
     new ResizeObserver(() => this.fit()).observe(root);
     this.fit();
@@ -80,6 +91,8 @@ export class Stage {
 
   private control(): OrbitControls {
     const controls = new OrbitControls(this.camera, this.renderer.domElement);
+    controls.touches = {TWO: TOUCH.DOLLY_ROTATE};
+    this.renderer.domElement.style.touchAction = 'pan-x pan-y'; // the controls forbid both
     controls.addEventListener('change', () => this.draw());
     controls.addEventListener('start', () => {
       this.turned = true;
@@ -118,12 +131,15 @@ export class Stage {
     this.renderer.domElement.dataset['members'] = String(this.members?.axes.length ?? 0);
     this.beam = new Beam();
     this.content.add(this.beam);
+    this.measure = new Measure();
+    this.content.add(this.measure);
+    this.measuring?.(undefined);
     this.cone = solid.tool?.kind === 'cone' ? new Cone(solid.tool) : null;
     if (this.cone) this.content.add(this.cone);
     this.scene.add(this.content);
     const view = JSON.stringify([job, solid.link, solid.eye, solid.up]);
     if (view !== this.seen) this.reset();
-    else this.move(new Vector3(...solid.centre));
+    else this.move(new Vector3(...solid.centre), refit(this.fitted, this.needed()));
     this.seen = view;
     this.forget.forEach((each) => each());
     this.forget = [listen(solid.link, (index) => this.follow(index)), listen(chosen(solid.link), () => this.light())];
@@ -132,10 +148,66 @@ export class Stage {
     this.draw();
   }
 
-  /** Looks at another point from the same side, as far away. */
-  private move(centre: Vector3): void {
-    this.camera.position.add(centre.clone().sub(this.controls.target));
+  /** Looks at another point from the same side, as far away, or farther by a factor if the model has grown. */
+  private move(centre: Vector3, by: number): void {
+    const offset = this.camera.position.clone().sub(this.controls.target).multiplyScalar(by);
     this.controls.target.copy(centre);
+    this.camera.position.copy(centre).add(offset);
+    if (by !== 1) this.reach(this.fitted * by);
+  }
+
+  /** From where the model is seen whole, from the side that is chosen. */
+  private needed(): number {
+    if (!this.solid) return 1;
+    return this.members?.distance(this.camera, towards(this.solid, this.side), new Vector3(...this.solid.centre)) ?? this.away(this.solid.size);
+  }
+
+  /** Sees what is between far and near of a distance. */
+  private reach(distance: number): void {
+    this.fitted = distance;
+    const depth = this.camera.fov === lens.parallel ? 8 : 50; // from afar less, or near places would be told apart badly
+    this.camera.near = distance / depth;
+    this.camera.far = distance * depth;
+    this.camera.updateProjectionMatrix();
+    this.renderer.domElement.dataset['distance'] = distance.toPrecision(6);
+  }
+
+  /** Looks from a side of the model, the whole of it. */
+  look(side: Side): void {
+    this.side = side;
+    this.reset(side);
+  }
+
+  /** Draws lines along the view parallel, or as the eye sees them. */
+  parallel(on: boolean): void {
+    const before = this.away(1);
+    this.camera.fov = on ? lens.parallel : lens.wide;
+    this.move(this.controls.target.clone(), this.away(1) / before);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Tells of two points that are clicked, from now on; nothing ends it. */
+  measured(tell: ((points: [Vector3, Vector3] | undefined) => void) | null): void {
+    this.measuring = tell;
+    this.measure.removeFromParent();
+    this.measure = new Measure();
+    this.content.add(this.measure);
+    this.renderer.domElement.classList.toggle('measuring', tell !== null);
+    this.draw();
+  }
+
+  private takePoint(event: MouseEvent): void {
+    const solids: Object3D[] = [];
+    for (const part of this.content.children)
+      if (![this.partners, this.measure, this.beam].includes(part as Group)) part.traverse((node) => node instanceof Mesh && solids.push(node));
+    const hit = this.ray(event).intersectObjects(solids, false)[0];
+    if (!hit) return;
+    const {clientWidth, clientHeight} = this.root;
+    const at = this.content.worldToLocal(snapped(hit, this.camera, clientWidth, clientHeight).clone());
+    const dot = (4 * 2 * this.camera.position.distanceTo(hit.point) * Math.tan((this.camera.fov * Math.PI) / 360)) / clientHeight;
+    this.measuring?.(this.measure.take(at, dot));
+    this.draw();
   }
 
   partnersShown(shown: boolean): void {
@@ -143,21 +215,19 @@ export class Stage {
     this.draw();
   }
 
-  reset(): void {
+  reset(side: Side = 'first'): void {
     if (!this.solid) return;
     this.turned = false;
-    const {centre, size, eye = [1, -1, 0.7], up = [0, 0, 1]} = this.solid;
+    this.side = side;
+    const {centre, up = [0, 0, 1]} = this.solid;
     this.camera.up.set(...up);
     // The controls read the upward direction when they are made.
     this.controls.dispose();
     this.controls = this.control();
     this.controls.target.set(...centre);
-    const towards = new Vector3(...eye).normalize();
-    const distance = this.members?.distance(this.camera, towards, this.controls.target) ?? this.away(size);
-    this.camera.position.copy(towards.multiplyScalar(distance).add(this.controls.target));
-    this.camera.near = distance / 50;
-    this.camera.far = distance * 50;
-    this.camera.updateProjectionMatrix();
+    const distance = this.needed();
+    this.camera.position.copy(towards(this.solid, side).multiplyScalar(distance).add(this.controls.target));
+    this.reach(distance);
     this.controls.update();
     this.draw();
   }
@@ -199,7 +269,7 @@ export class Stage {
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    if (!this.turned) this.reset();
+    if (!this.turned) this.reset(this.side);
     this.now(); // before the page is painted: another size has cleared the canvas
   }
 
@@ -249,8 +319,9 @@ export class Stage {
   /** If a click turned nothing, it selects a member, or clears the selection. */
   private choose(event: MouseEvent): void {
     const from = this.pressed;
-    if (!this.members || !this.solid || (from && Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > still)) return;
-    point(chosen(this.solid.link), this.item(event));
+    if (from && Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > still) return;
+    if (this.measuring) this.takePoint(event);
+    else if (this.members && this.solid) point(chosen(this.solid.link), this.item(event));
   }
 
   private hover(event: PointerEvent): void {

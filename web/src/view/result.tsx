@@ -14,6 +14,7 @@ import {Inspector} from './inspector';
 import {MembersTable} from './members';
 import {Motion} from './motion';
 import {useConsole} from './page';
+import {Paper} from './paper';
 import {Player} from './player';
 import {Charts} from './plots';
 import {Columns, Proof} from './proof';
@@ -29,6 +30,7 @@ export function Result() {
   const {lost, reply, said, trouble, answer} = console;
   return (
     <>
+      <Paper />
       <div id="verdict" role="status" aria-live="polite">
         {lost.value !== null ? (
           <Lost why={lost.value} as={console.lostAs.value} />

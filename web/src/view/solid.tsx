@@ -1,9 +1,11 @@
 import {useLayoutEffect, useRef, useState} from 'preact/hooks';
 import {listen} from '../links';
-import type {Picture} from '../picture';
+import {onPaper} from '../paper';
+import type {Picture, Vector} from '../picture';
 import type {Stage} from '../scene/stage';
 import {dark} from '../theme';
-import {hint, sentence, text} from '../words';
+import {shownUnit, toShown} from '../units';
+import {hint, number, sentence, text, withUnit} from '../words';
 import {Swatch, Toggle} from './controls';
 
 interface Given {
@@ -16,6 +18,20 @@ interface Given {
   failed(failure: unknown): void;
 }
 
+const sides = [
+  ['front', 'Front'],
+  ['right', 'Right'],
+  ['top', 'Top'],
+] as const;
+type Between = [Vector, Vector];
+
+/** The distance of two points, and its parts along the axes. */
+function distanceText([a, b]: Between): string {
+  const [x, y, z] = [0, 1, 2].map((k) => Math.abs((b[k] as number) - (a[k] as number))) as Vector;
+  const length = (value: number) => number(toShown(value, 'mm'), shownUnit('mm'));
+  return `${withUnit(toShown(Math.hypot(x, y, z), 'mm'), shownUnit('mm'))}  (x ${length(x)}, y ${length(y)}, z ${length(z)})`;
+}
+
 /** The solid, its switches, and the cursor's values. */
 export function Solid(given: Given) {
   const {picture, view, partners, change} = given;
@@ -23,6 +39,14 @@ export function Solid(given: Given) {
   const canvas = useRef<HTMLDivElement>(null);
   const [stage, none] = useStage(canvas, given);
   const [low, high] = solid?.scale ?? [];
+  const [parallel, flatten] = useState(false);
+  const [measure, setMeasure] = useState(false);
+  const [between, found] = useState<Between | undefined>(undefined);
+  useLayoutEffect(() => void stage.current?.then((made) => made?.parallel(parallel)), [parallel]);
+  useLayoutEffect(() => {
+    found(undefined);
+    void stage.current?.then((made) => made?.measured(measure ? (points) => found(points && [points[0].toArray(), points[1].toArray()]) : null));
+  }, [measure]);
   return (
     <div id="solid" hidden={!solid}>
       <div ref={canvas} class="canvas">
@@ -47,9 +71,23 @@ export function Solid(given: Given) {
         <button type="button" title="Back to the first view" onClick={() => stage.current?.then((made) => made?.reset())}>
           Reset view
         </button>
-        <button type="button" title="The picture, the curves and the tables on paper" onClick={() => print()}>
+        <button type="button" id="print" title="The request, the pictures and the tables on paper, in light colours" onClick={() => void onPaper()}>
           Print
         </button>
+      </div>
+      <div class="views" role="group" aria-label="Views">
+        {sides.map(([side, name]) => (
+          <button type="button" key={side} data-side={side} title={`Look from the ${side}`} onClick={() => stage.current?.then((made) => made?.look(side))}>
+            {name}
+          </button>
+        ))}
+        <Toggle id="view-parallel" pressed={parallel} act={() => flatten(!parallel)}>
+          Parallel
+        </Toggle>
+        <Toggle id="view-measure" pressed={measure} act={() => setMeasure(!measure)}>
+          Measure
+        </Toggle>
+        {measure && <output id="measured">{between ? distanceText(between) : 'Click two points of the model.'}</output>}
       </div>
       <div class="scale" id="scale" hidden={low === undefined && !solid?.legend}>
         {solid?.legend ? (

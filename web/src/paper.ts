@@ -1,0 +1,24 @@
+import {onWhite} from './theme';
+
+const frames = (count: number): Promise<void> => new Promise((done) => requestAnimationFrame(() => (count > 1 ? void frames(count - 1).then(done) : done())));
+
+/** Lays the page out as on paper and draws it so, because pictures that are only printed would keep their size and their colours. */
+function lay(on: boolean): void {
+  onWhite.value = on;
+  document.body.classList.toggle('paper', on);
+}
+
+/** Prints the job: what was asked, the verdict and whole pictures in light colours. */
+export async function onPaper(): Promise<void> {
+  lay(true);
+  await frames(3); // the pictures follow the size of their frames
+  try {
+    print();
+  } finally {
+    lay(false);
+  }
+}
+
+// By the browser's own command there is no time to draw anew; the colours follow.
+addEventListener('beforeprint', () => lay(true));
+addEventListener('afterprint', () => lay(false));

@@ -1,0 +1,36 @@
+import type {Row} from '../json';
+import {linesOf} from '../lines';
+import {endpointName, exampleName} from '../names';
+import {onWhite} from '../theme';
+import {useConsole} from './page';
+
+const most = 160; // lines of a request; a longer one is a file
+
+/** What a print begins with: the job's name and its request. On the screen the form has both. */
+export function Paper() {
+  const console = useConsole();
+  if (!onWhite.value) return null;
+  const [endpoint, example] = [console.endpoint.value, console.example.value];
+  const lines = linesOf(console.body as Row);
+  return (
+    <section id="paper" aria-label="Request">
+      <h1>
+        tubecut: {endpointName(endpoint)}
+        {example && `, ${exampleName(endpoint, example)}`}
+      </h1>
+      <p class="soft">
+        {new Date().toLocaleString([], {dateStyle: 'medium', timeStyle: 'short'})}
+        {console.answer.value && `, job ${console.answer.value.job.id}`}
+      </p>
+      <dl>
+        {lines.slice(0, most).map(([name, value], i) => (
+          <div key={i}>
+            <dt>{name}</dt>
+            <dd>{value}</dd>
+          </div>
+        ))}
+      </dl>
+      {lines.length > most && <p class="soft">and {lines.length - most} more values, in the file of the job</p>}
+    </section>
+  );
+}
