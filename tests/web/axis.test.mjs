@@ -1,4 +1,4 @@
-// The axes of charts: two measures of one turn, the places of warnings, and what is seen of an axis.
+// The axes of charts: two measures of one turn, and the places of warnings.
 import {strict as assert} from 'node:assert';
 import {test} from 'node:test';
 import {load} from './load.mjs';

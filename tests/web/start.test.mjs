@@ -1,4 +1,4 @@
-// The start page's data: tasks that hold every page, examples that are there, and sketches of what requests hold.
+// The start page's data: tasks that hold every page, examples that are there, and sketches of requests.
 import {strict as assert} from 'node:assert';
 import {existsSync, readdirSync, readFileSync} from 'node:fs';
 import {test} from 'node:test';

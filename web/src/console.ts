@@ -358,7 +358,7 @@ export class Console {
     this.remember();
   }
 
-  /** The files of the answer, among the details under it; `purpose`: what they are for. */
+  /** The files of the answer, among the details under it; `purpose`: their use. */
   files(purpose?: Purpose): void {
     if (purpose) remember({...remembered(), purpose});
     this.wanted.value += 1;

@@ -29,7 +29,7 @@ export function known(type: string): [name: string, ending: string, purpose: Pur
   return media[type] ?? (/dstv|nc1/.test(type) ? ['DSTV', 'nc1', 'model'] : [type, 'txt', 'data']);
 }
 
-/** What a program around a tube that is not round has no use for: it is cut in one pass, without tabs or marks, from a flat. */
+/** Options without a use in a program around a tube that is not round: it is cut in one pass, without tabs or marks, from a flat. */
 const ofRound = new Set(['passes', 'tabs', 'tab_mm', 'tabs_of', 'start_deg', 'marks', 'mark_speed_mm_min']);
 
 /** The formats, views and options of an answer: sections of the wall are of round tubes only, STEP and NC1 also of `whole` parts. */

@@ -8,7 +8,7 @@ function lay(on: boolean): void {
   document.body.classList.toggle('paper', on);
 }
 
-/** Prints the job: what was asked, the verdict and whole pictures in light colours. */
+/** Prints the job: the request, the verdict and whole pictures in light colours. */
 export async function onPaper(): Promise<void> {
   lay(true);
   await frames(3); // the pictures follow the size of their frames

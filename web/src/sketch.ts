@@ -59,7 +59,7 @@ function cutoutBars(body: Row, length: number, width: number): Bar[] {
   });
 }
 
-/** A tube that is cut, from its work point along its axis, and what it is cut to fit. */
+/** A tube that is cut, from its work point along its axis, and its partners. */
 function targetBars(body: Row, sizes: Sizes): Bar[] {
   const target = body['target'] as Row;
   const width = widthOf(target, sizes);

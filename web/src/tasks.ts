@@ -1,4 +1,4 @@
-/** What people come for, in the order of the pages: each with its endpoints and the examples to begin with. */
+/** The tasks of a user, in the order of the pages: each with its endpoints and the examples to begin with. */
 export interface Task {
   id: string;
   name: string;

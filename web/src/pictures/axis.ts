@@ -2,7 +2,7 @@ import type {Chart, Mark} from '../picture';
 import type {Warning} from '../service';
 import {choice} from '../words';
 
-/** What the way round a round tube is measured in. */
+/** Units of the way around a round tube. */
 export type Axis = 'mm' | '°';
 
 const angle = {name: 'φ', unit: '°'};

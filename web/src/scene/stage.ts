@@ -162,7 +162,7 @@ export class Stage {
     return this.members?.distance(this.camera, towards(this.solid, this.side), new Vector3(...this.solid.centre)) ?? this.away(this.solid.size);
   }
 
-  /** Sees what is between far and near of a distance. */
+  /** Sets the near and the far limit of the view for a distance. */
   private reach(distance: number): void {
     this.fitted = distance;
     const depth = this.camera.fov === lens.parallel ? 8 : 50; // from afar less, or near places would be told apart badly

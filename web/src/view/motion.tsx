@@ -38,7 +38,7 @@ let last: Shown | undefined; // kept for who comes back to it
 
 /** The pulses of a cut on a machine, at a speed: the next job in line, shown without leaving this one. */
 export function Motion({cut, section, context, open, focus, failed}: Given) {
-  // Without a machine that swings the torch, the service's refusal says what is missing.
+  // Without a machine that swings the torch, the service's refusal names the missing axis.
   const motion = section ? (sectionMotion(section, context.machines) ?? {...usualMotion, machine: acrossTube}) : usualMotion;
   const body: Row = {cut, ...motion};
   const key = JSON.stringify(body);

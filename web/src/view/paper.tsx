@@ -6,7 +6,7 @@ import {useConsole} from './page';
 
 const most = 160; // lines of a request; a longer one is a file
 
-/** What a print begins with: the job's name and its request. On the screen the form has both. */
+/** The head of a print: the job's name and its request. On the screen the form has both. */
 export function Paper() {
   const console = useConsole();
   if (!onWhite.value) return null;

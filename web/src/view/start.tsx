@@ -10,7 +10,7 @@ import {useConsole} from './page';
 
 const shownJobs = 6;
 
-/** The first page: what tubecut is, what it is used for, and what was done with it here. */
+/** The first page: the purpose of tubecut, its tasks, and the recent jobs. */
 export function Start() {
   const console = useConsole();
   return (
@@ -69,7 +69,7 @@ function TaskCard({task}: {task: Task}) {
   );
 }
 
-/** A drawing of what a request holds; of one without tubes, such as a feed curve, a curve. */
+/** A drawing of the tubes of a request; of one without tubes, such as a feed curve, a curve. */
 function Picture({body, console}: {body: Row; console: Console}) {
   const sketch = useMemo(() => sketched(body, console.context.sizes), [body]);
   const [width, height] = sketchSize;
@@ -91,7 +91,7 @@ function Picture({body, console}: {body: Row; console: Console}) {
   );
 }
 
-/** What a job is of, by the names that its owner gave. */
+/** The subject of a job, by the names that its owner gave. */
 export function subjectOf(body: Row): string {
   const of = (key: string) => (typeof body[key] === 'object' && body[key] !== null && !Array.isArray(body[key]) ? (body[key] as Row) : {});
   const inner = ['cut', 'part', 'mill_path', 'groove'].find((key) => Object.keys(of(key)).length);
