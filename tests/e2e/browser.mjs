@@ -8,7 +8,18 @@ export const launch = (executablePath) => chromium.launch({executablePath, args:
 // Most tests want a job, and not the start page that a bare address shows.
 const firstJob = '#/bevel-tables/source-000-table-1';
 
-export async function open(browser, origin, hash = firstJob, {width = 1280, height = 800, theme = 'light', at = '/'} = {}) {
+/** A browser that has no WebGL: without a graphics card each picture costs as much as the rest of the page. */
+function withoutWebGl() {
+  const {getContext} = HTMLCanvasElement.prototype;
+  HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+    return kind.startsWith('webgl') ? null : getContext.call(this, kind, ...rest);
+  };
+}
+
+/** A page that draws no 3D. */
+export const openPlain = (browser, origin, hash, given = {}) => open(browser, origin, hash, {...given, draws: false});
+
+export async function open(browser, origin, hash = firstJob, {width = 1280, height = 800, theme = 'light', at = '/', draws = true} = {}) {
   const context = await browser.newContext({viewport: {width, height}, colorScheme: theme, acceptDownloads: true, reducedMotion: 'reduce'});
   const page = await context.newPage();
   page.faults = [];
@@ -16,13 +27,15 @@ export async function open(browser, origin, hash = firstJob, {width = 1280, heig
   // A refused request (422, 401) is part of the game; the browser logs it as an error of its own.
   page.on('console', (message) => {
     const refused = /status of (422|401)/.test(message.text());
-    if (message.type() === 'error' && !refused) page.faults.push(message.text());
+    const undrawn = !draws && message.text().startsWith('THREE.WebGLRenderer');
+    if (message.type() === 'error' && !refused && !undrawn) page.faults.push(message.text());
   });
   page.on('pageerror', (error) => page.faults.push(error.message));
   page.on('request', (request) => {
     const {protocol} = new URL(request.url());
     if (!request.url().startsWith(origin) && protocol !== 'blob:' && protocol !== 'data:') page.strangers.push(request.url());
   });
+  if (!draws) await context.addInitScript(withoutWebGl);
   await page.goto(origin + at + hash);
   return page;
 }

@@ -1,7 +1,7 @@
 import {strict as assert} from 'node:assert';
 import {readFile} from 'node:fs/promises';
 import {deflateRawSync} from 'node:zlib';
-import {answered, open} from '../browser.mjs';
+import {answered, openPlain as open} from '../browser.mjs';
 
 const choose = (page, purpose) => page.locator(`#panel [name=purpose][value=${purpose}]`).check();
 

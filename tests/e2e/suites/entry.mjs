@@ -1,7 +1,7 @@
 // How values are entered: in mm or in inches, as people write them, and nothing is refused or moves while they type.
 import {strict as assert} from 'node:assert';
 import {readFile} from 'node:fs/promises';
-import {answered, answers, open, then} from '../browser.mjs';
+import {answered, answers, openPlain as open, then} from '../browser.mjs';
 
 const table1 = JSON.parse(await readFile(new URL('../../../examples/bevel-tables/source-000-table-1.json', import.meta.url)));
 const field = (page, pointer) => page.locator(`[data-pointer="${pointer}"]`);

@@ -2,7 +2,7 @@
 import {strict as assert} from 'node:assert';
 import {readFile} from 'node:fs/promises';
 import {deflateRawSync} from 'node:zlib';
-import {answered, open, then} from '../browser.mjs';
+import {answered, openPlain as open, then} from '../browser.mjs';
 
 /** Answers every job within the page with a refusal, so that only the form works; `asked` is the last request. */
 const stub = (page) => page.evaluate(() => {

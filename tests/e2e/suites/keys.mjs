@@ -5,7 +5,7 @@ import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {Service} from '../../contract/service.mjs';
-import {answered, formed, open, then} from '../browser.mjs';
+import {answered, formed, openPlain as open, then} from '../browser.mjs';
 
 /** Runs `check` with a service that knows one key. */
 async function asked({browser, server}, check) {
