@@ -7,6 +7,7 @@
 #include "api/formats/drawing/development.hpp"
 #include "api/formats/drawing/part_edges.hpp"
 #include "api/formats/drawing/part_marks.hpp"
+#include "api/formats/dxf/dstv_stated.hpp"
 #include "api/formats/dxf/dstv_text.hpp"
 #include "api/formats/mesh/cut_solid.hpp"
 #include "api/formats/numbers.hpp"
@@ -139,7 +140,9 @@ std::string cutout_block(const part::PartSpec& spec, const part::Part& part, std
   const auto& one = part.cutouts.instances[index];
   const auto& mould = part.cutouts.mould_of(one);
   const auto& asked = spec.cutouts.all[one.asked];
-  const auto out = dstv_cutout_title(cut.label, mould.laying.lay());
+  auto out = dstv_cutout_title(cut.label, mould.laying.lay());
+  const double anchor = up(spec.target.outer_radius, turned_from(0.0, one.phi));
+  if (!mould.laying.far()) out += dstv_shape(asked, one.z, anchor);
   const auto diameter = dstv_bore_diameter(asked);
   if (!diameter || asked.wall == cutout::Wall::developed) return out + opening(cut, 0.0, stop);
   const double middle = turned_from(0.0, one.phi + mould.laying.phase(0.0));
@@ -193,7 +196,8 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
                   ? ""
                   : dstv_comment(
                         "BO: a bore along the tube's radius, its diameter, depth 0 = this wall")) +
-             dstv_comment("a hole across phi = 0 is one contour: its y leaves the girth") + marks +
+             dstv_comment("a hole across phi = 0 is one contour: its y leaves the girth") +
+             dstv_ends(spec, part) + marks +
              dstv_header(profile_of(spec.target, spec.density), lengths, caption, spec.name);
   append(out, outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0), caption.stop),
          caption.stop);

@@ -8,6 +8,7 @@
 #include "api/formats/drawing/development.hpp"
 #include "api/formats/drawing/part_edges.hpp"
 #include "api/formats/drawing/part_marks.hpp"
+#include "api/formats/dxf/dstv_stated.hpp"
 #include "api/formats/dxf/dstv_text.hpp"
 #include "api/formats/numbers.hpp"
 #include "api/formats/text.hpp"
@@ -100,10 +101,11 @@ std::string cutout_block(const part::SectionPartSpec& spec, const part::SectionP
     return NcPoint{z, half + (face.across_height ? p.x() : p.y())};
   };
   auto out = dstv_cutout_title(cutout_tag(layout, index), layout.mould_of(one).laying.lay());
-  if (const auto diameter = dstv_bore_diameter(asked)) {
-    const auto at = point(one.phi + layout.mould_of(one).laying.phase(0.0), one.z);
+  const auto& laying = layout.mould_of(one).laying;
+  const auto at = point(one.phi + laying.phase(0.0), one.z);
+  if (!laying.far()) out += dstv_shape(asked, at.x, at.y);
+  if (const auto diameter = dstv_bore_diameter(asked))
     return out + dstv_bore(face.name, at.x, at.y, *diameter);
-  }
   const auto rows = cutout::placed(layout, one);
   std::vector<NcPoint> line;
   double twice = 0.0;
@@ -190,7 +192,8 @@ std::string print_dstv(const part::SectionPartSpec& spec, const part::SectionPar
         "opening");
   const auto lengths = lengths_of_part(part);
   auto out = "ST\r\n" + dstv_comments(lengths, kFrame, constant, caption) + cut_angles(part) +
-             marks + dstv_header(profile_of(spec), lengths, caption, spec.name);
+             dstv_ends(spec, part) + dstv_inner_corner(spec.section.inner_corner) + marks +
+             dstv_header(profile_of(spec), lengths, caption, spec.name);
   append(out, outlines, caption.stop);
   out += dstv_comment(
       "columns of the B lines: girth mm, outer edge x mm, inner edge x mm, bevel "

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "core/cutout/cutout.hpp"
+#include "core/part/part.hpp"
+#include "core/part/section/section_part.hpp"
+
+namespace tubecut::api {
+
+// Comment lines of a DSTV file that state the parts of a request that its blocks do not contain,
+// for a reader that makes the request again (clients/import). Lengths in mm, angles in degrees, x
+// and y as in the blocks, numbers to 1e-9.
+
+[[nodiscard]] std::string dstv_work_points(const cutout::Ground& ground);
+/// `cut`: the end as it was cut, in its own frame; `work`: x of its work point; `square`: nothing
+/// is welded to it.
+[[nodiscard]] std::string dstv_end(const bevel::TableSpec& cut, bool square, bool finish,
+                                   double work);
+
+/// Returns the line of the bore's corner, because the header has only the outer radius.
+[[nodiscard]] std::string dstv_inner_corner(double radius);
+
+/// Returns the lines of a cut-out's shape, whose anchor lies at x, y of its block.
+[[nodiscard]] std::string dstv_shape(const cutout::Spec& cutout, double x, double y);
+
+/// Returns the lines of both ends and of their work points. An end has a line if it is square or
+/// cut by one plane: where the plane meets the axis, and its normal in the part's frame, x to phi 0
+/// or to face 1, z along the tube.
+template <class Spec, class Part>
+[[nodiscard]] std::string dstv_ends(const Spec& spec, const Part& part) {
+  const auto ground = cutout_ground(spec, part);
+  return dstv_work_points(ground) +
+         dstv_end(part.start.spec, !spec.start.welded, false, ground.start_work) +
+         dstv_end(part.finish.spec, !spec.finish.welded, true, ground.finish_work);
+}
+
+}  // namespace tubecut::api
