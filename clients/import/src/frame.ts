@@ -370,8 +370,8 @@ export function frameOf(given: Found, options: FrameOptions, format: string): Im
   return {frame, notUnderstood: listed([...notUnderstood, ...rest]), asks, sources: found.sources.filter(({id}) => ids.has(id))};
 }
 
-/** As text that is good to read and to edit: a member, an other, a joint a line. */
-export function printed(frame: Frame): string {
+/** As text that is good to read and to edit: a member, an other, a joint, a cut-out a line. */
+export function printed(frame: Record<string, unknown>): string {
   const spaced = (value: unknown): string => {
     if (Array.isArray(value)) return `[${value.map(spaced).join(', ')}]`;
     if (value === null || typeof value !== 'object') return JSON.stringify(value);

@@ -17,5 +17,7 @@ export {
 } from './frame.js';
 export {fromIfc, type IfcOptions} from './ifc/index.js';
 export {type CornerOptions, type Corners, type Section, type Sides, type Standard, standards} from './sections.js';
+export {fromNc1, type Nc1Options} from './nc1/index.js';
+export type {ImportedPart, Part} from './nc1/part.js';
 export {fromPcf, type PcfOptions} from './pcf/index.js';
 export {lengths, type LengthUnit} from './units.js';

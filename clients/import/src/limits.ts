@@ -8,4 +8,7 @@ export const limits = {
   steps: 200000, // bodies that are looked at in one file
   points: 10000, // of one curve or polyline
   statement: 400000, // bytes of one entity of IFC: 20 000 references
+  lines: 1000000, // of an NC1 file
+  cutouts: 2000, // of a part, by the contract
+  pieces: 500, // of a cut-out's contour, the same
 } as const;

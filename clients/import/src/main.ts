@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// node dist/main.js FILE [options] > frame.json
+// node dist/main.js FILE [options] > request.json
 import {readFileSync, writeFileSync} from 'node:fs';
 import {extname} from 'node:path';
 import {parseArgs} from 'node:util';
@@ -10,8 +10,10 @@ import {
   fromCsv,
   fromDxf,
   fromIfc,
+  fromNc1,
   fromPcf,
   type Imported,
+  type ImportedPart,
   lengths,
   type LengthUnit,
   printed,
@@ -19,17 +21,17 @@ import {
   standards,
 } from './index.js';
 
-const usage = `usage: node dist/main.js FILE [options] > frame.json
+const usage = `usage: node dist/main.js FILE [options] > request.json
 
-FILE is .ifc, .pcf, .csv, .tsv, .txt (a table) or .dxf. Items that are not in the frame, and assumptions, go to the standard error,
-one per line.
+FILE is .ifc, .pcf, .csv, .tsv, .txt (a table) or .dxf, which become a frame, or .nc1, .nc or .dstv (NC1 of one tube), which becomes a part.
+Items that are not in it, and assumptions, go to the standard error, one per line.
 
   --within MM          an end joins bodies within this distance (5)
   --origin X,Y,Z       this point of the file, in mm, is the frame's origin; the service takes 1 km about it
   --merge-in-line      members that continue in line become one piece
   --fields JSON        fields of the request instead of ours, for example {"kerf_mm": 2}
   --sources FILE       writes a CSV of the ids of the frame with their entities and GUIDs
-  --corner CORNER      IFC, CSV, DXF: corners of rectangular tubes that the file does not state or draws too sharp to be cut:
+  --corner CORNER      IFC, CSV, DXF, NC1: corners of rectangular tubes that the file does not state or draws too sharp to be cut:
                        en_10219 (cold formed), en_10210 (hot finished), astm_a500, or the radius outside in mm
   --schedule NAME      PCF: of pipes whose wall the file does not state, for example "SCH 40"
   --bore BORE=SIZE     PCF: meaning of a bore: "152.4=NPS 6", "160=DN 150", "168=168.3" (outside diameter in mm), "168=168.3x7.11"
@@ -41,7 +43,7 @@ one per line.
   --size SIZE          CSV: of rows without their own, "114.3x6.3" (mm), "NPS 4 SCH 40" or "RHS 60x40x3 EN 10219"
   --layer NAME=SIZE    DXF: the size of a layer's tubes; the other layers are listed
 
-ends with 0, 1 (no frame could be made), 2 (wrong usage), 3 (a frame, and something is not in it or was assumed),
+ends with 0, 1 (no frame or part could be made), 2 (wrong usage), 3 (a frame or a part, and something is not in it or was assumed),
 4 (options are missing: the last lines state which; the standard output has the part that could be read without them)
 `;
 
@@ -137,13 +139,13 @@ function cornerOf(text: string | undefined): CornerOptions {
 }
 
 const quoted = (cell: string): string => (/[",\n]/.test(cell) ? `"${cell.replace(/"/g, '""')}"` : cell);
-const table = ({sources}: Imported): string =>
+const table = ({sources}: Imported | ImportedPart): string =>
   [['id', 'entity', 'type', 'guid'], ...sources.map(({id, entity, type, guid}) => [id, entity, type, guid ?? ''])]
     .map((row) => `${row.map(quoted).join(',')}\n`)
     .join('');
 
 /** The options that are missing, as they would be written. */
-function missing({asks}: Imported): string[] {
+function missing({asks}: Imported | ImportedPart): string[] {
   const bores = asks.filter(({option}) => option === 'bore').map(({key, likely}) => `--bore "${key}=${likely[0] ?? 'SIZE'}"`);
   const others = [
     ...new Set(asks.filter(({option}) => option !== 'bore').map(({option, likely}) => `--${option}${option === 'corner' ? ` ${likely[0]}` : ''}`)),
@@ -151,7 +153,7 @@ function missing({asks}: Imported): string[] {
   return asks.length === 0 ? [] : [`Options are missing. Check the likely values, then state: ${[...bores, ...others].join(' ')}`];
 }
 
-async function imported(): Promise<Imported> {
+async function imported(): Promise<Imported | ImportedPart> {
   const {values, positionals} = asked();
   const [file, ...rest] = positionals;
   if (file === undefined || rest.length > 0) throw new Usage('one FILE');
@@ -172,13 +174,17 @@ async function imported(): Promise<Imported> {
   const [bores, mark] = [boresOf(values.bore), decimalOf(values.decimal)];
   const ofTables = {...unit, ...mark, ...corner, columns, ...(size ? {size: sizeOf(size)} : {})};
   const csv = (bytes: Buffer) => fromCsv(bytes.toString(), {...common, ...ofTables, ...(nodes === undefined ? {} : {nodes: readFileSync(nodes, 'utf8')})});
-  const readers: Record<string, (bytes: Buffer) => Imported | Promise<Imported>> = {
+  const nc1 = (bytes: Buffer) => fromNc1(bytes, {...corner, ...(common.fields ? {fields: common.fields} : {})});
+  const readers: Record<string, (bytes: Buffer) => Imported | ImportedPart | Promise<Imported>> = {
     '.ifc': (bytes) => fromIfc(bytes, {...common, ...corner}),
     '.pcf': (bytes) => fromPcf(bytes.toString(), {...common, ...(schedule ? {schedule} : {}), ...bores, ...(wallAttribute ? {wallAttribute} : {})}),
     '.csv': csv,
     '.tsv': csv,
     '.txt': csv,
     '.dxf': (bytes) => fromDxf(bytes.toString(), layers, {...common, ...unit, ...corner}),
+    '.nc1': nc1,
+    '.nc': nc1,
+    '.dstv': nc1,
   };
   const reader = readers[extname(file).toLowerCase()];
   if (!reader) throw new Usage(`${file} is none of ${Object.keys(readers).join(', ')}`);
@@ -189,12 +195,13 @@ async function imported(): Promise<Imported> {
 
 try {
   const found = await imported();
-  const {frame, notUnderstood} = found;
+  const {notUnderstood} = found;
+  const request = 'part' in found ? found.part : found.frame;
   for (const {id, type, reason} of notUnderstood) console.error(`${id} ${type}: ${reason}`);
   for (const line of missing(found)) console.error(line);
-  if (frame) process.stdout.write(printed(frame));
-  else console.error('there is no frame');
-  process.exitCode = found.asks.length > 0 ? 4 : !frame ? 1 : notUnderstood.length > 0 ? 3 : 0;
+  if (request) process.stdout.write(printed(request));
+  else console.error(`there is no ${'part' in found ? 'part' : 'frame'}`);
+  process.exitCode = found.asks.length > 0 ? 4 : !request ? 1 : notUnderstood.length > 0 ? 3 : 0;
 } catch (failure) {
   const wrong = failure instanceof Usage;
   console.error(wrong ? `${failure.message}\n\n${usage}` : (failure as Error).message);
