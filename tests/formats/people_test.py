@@ -168,7 +168,7 @@ class People(FormatTest):
         count = 0
         for endpoint in ("bevel-tables", "parts"):
             for title, texts in self.comments(endpoint, "** ", "format=nc1"):
-                texts = [text for text in texts if not re.match(r"B +-?[\d.]+ |(?:end|shape|line|arc|work points|inner corner radius)\b", text)]  # the tables themselves
+                texts = [text for text in texts if not re.match(r"B +-?[\d.]+ |(?:end|shape|line|arc|work points|corner radii)\b", text)]  # the tables themselves
                 with self.subTest(title):
                     self.assertEqual([(text, *faults(text)) for text in texts if faults(text)], [])
                     count += len(texts)

@@ -90,8 +90,9 @@ std::string dstv_end(const bevel::TableSpec& cut, bool square, bool finish, doub
                       field("kerf", cut.kerf));
 }
 
-std::string dstv_inner_corner(double radius) {
-  return dstv_comment("inner corner radius " + stated(radius));
+std::string dstv_corners(const section::Section& section) {
+  return dstv_comment("corner radii: " + stated(section.corner) + " outside, " +
+                      stated(section.inner_corner) + " inside");
 }
 
 std::string dstv_shape(const cutout::Spec& cutout, double x, double y) {

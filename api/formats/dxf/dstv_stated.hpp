@@ -18,8 +18,8 @@ namespace tubecut::api {
 [[nodiscard]] std::string dstv_end(const bevel::TableSpec& cut, bool square, bool finish,
                                    double work);
 
-/// Returns the line of the bore's corner, because the header has only the outer radius.
-[[nodiscard]] std::string dstv_inner_corner(double radius);
+/// Returns the line of both corners: the header has only the outer one.
+[[nodiscard]] std::string dstv_corners(const section::Section& section);
 
 /// Returns the lines of a cut-out's shape, whose anchor lies at x, y of its block.
 [[nodiscard]] std::string dstv_shape(const cutout::Spec& cutout, double x, double y);

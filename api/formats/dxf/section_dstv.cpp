@@ -192,7 +192,7 @@ std::string print_dstv(const part::SectionPartSpec& spec, const part::SectionPar
         "opening");
   const auto lengths = lengths_of_part(part);
   auto out = "ST\r\n" + dstv_comments(lengths, kFrame, constant, caption) + cut_angles(part) +
-             dstv_ends(spec, part) + dstv_inner_corner(spec.section.inner_corner) + marks +
+             dstv_ends(spec, part) + dstv_corners(spec.section) + marks +
              dstv_header(profile_of(spec), lengths, caption, spec.name);
   append(out, outlines, caption.stop);
   out += dstv_comment(

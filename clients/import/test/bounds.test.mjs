@@ -2,12 +2,12 @@
 // files, always the same ones.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {fromCsv, fromDxf, fromIfc, fromPcf} from '../dist/index.js';
-import {fuzz, sound} from './support/fuzzing.mjs';
+import {fromCsv, fromDxf, fromIfc, fromNc1, fromPcf} from '../dist/index.js';
+import {fuzz, fuzzNc1, sound} from './support/fuzzing.mjs';
 import {hostile} from './support/hostile.mjs';
 import {bytes} from './support/step.mjs';
 
-const read = {ifc: (text) => fromIfc(bytes(text)), pcf: (text) => fromPcf(text), csv: (text) => fromCsv(text), dxf: (text) => fromDxf(text, {L: {outer_diameter_mm: 60.3, wall_mm: 3}})};
+const read = {ifc: (text) => fromIfc(bytes(text)), pcf: (text) => fromPcf(text), csv: (text) => fromCsv(text), nc1: (text) => fromNc1(text), dxf: (text) => fromDxf(text, {L: {outer_diameter_mm: 60.3, wall_mm: 3}})};
 for (const [name, kind, make, reason] of hostile)
   test(`bounded: ${name}`, {timeout: 120000}, async (of) => {
     const text = make();
@@ -26,4 +26,10 @@ test('500 garbled files', async () => {
     if (frame) counts.frame = (counts.frame ?? 0) + 1;
   }
   assert.ok(['ifc', 'pcf', 'csv', 'dxf', 'frame'].every((kind) => counts[kind] >= 50), JSON.stringify(counts));
+});
+
+test('2000 garbled NC1 files', () => {
+  let parts = 0;
+  for (let i = 0; i < 2000; ++i) parts += fuzzNc1(1, i).part ? 1 : 0;
+  assert.ok(parts >= 500 && parts <= 1900, `${parts} parts`);
 });

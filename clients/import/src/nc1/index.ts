@@ -48,14 +48,15 @@ function roundTube(file: Nc1): Tube {
 
 /** The corners of the file if they can be cut; else those of the options. */
 function cornersOf(file: Nc1, sides: {height_mm: number; width_mm: number; wall_mm: number}, stated: Stated, options: CornerOptions): Section {
-  const corner_radius_mm = headerNumber(file, 'radius');
+  const radius = headerNumber(file, 'radius');
+  const own = stated.corners && Math.abs(stated.corners.outside - radius) <= near ? stated.corners : undefined;
+  const corner_radius_mm = own?.outside ?? radius;
   const least = Math.min(sides.height_mm, sides.width_mm);
   if (stated.ours && Math.abs(2 * corner_radius_mm - least) <= near && sides.height_mm !== sides.width_mm) return {kind: 'flat_oval_tube', ...sides};
-  const inner = stated.innerCorner;
-  const concentric = inner === undefined || Math.abs(corner_radius_mm - sides.wall_mm - inner) <= near;
-  const own = {corner_radius_mm, ...(concentric ? {} : {inner_corner_radius_mm: inner})};
-  const why = corner_radius_mm > 0 ? uncut(sides, own) : 'it states no corner radius';
-  if (why === undefined) return {kind: 'rectangular_tube', ...sides, ...own};
+  const concentric = !own || Math.abs(own.outside - sides.wall_mm - own.inside) <= 1e-9;
+  const radii = {corner_radius_mm, ...(concentric ? {} : {inner_corner_radius_mm: own.inside})};
+  const why = corner_radius_mm > 0 ? uncut(sides, radii) : 'it states no corner radius';
+  if (why === undefined) return {kind: 'rectangular_tube', ...sides, ...radii};
   const given = cornersStated(options);
   if (!given) throw new Cornerless(`${why}: state --corner, ${cornersToState}`);
   const still = uncut(sides, given);
@@ -70,7 +71,7 @@ function rectangularTube(file: Nc1, stated: Stated, options: CornerOptions): Tub
   if (!(2 * wall < Math.min(height, width))) throw new Trouble(`a wall of ${wall} mm is not less than half of the side of ${Math.min(height, width)} mm`);
   const section = cornersOf(file, sides, stated, options);
   const outer = section.kind === 'flat_oval_tube' ? Math.min(height, width) / 2 : 'corner_radius_mm' in section ? section.corner_radius_mm : 2 * wall;
-  const inner = Math.max(0, stated.innerCorner ?? outer - wall);
+  const inner = 'inner_corner_radius_mm' in section ? (section.inner_corner_radius_mm ?? 0) : Math.max(0, outer - wall);
   const area = 2 * wall * (height + width) - 4 * wall * wall - (4 - Math.PI) * (outer * outer - inner * inner);
   return {target: {...section, length_mm: 0}, frame: {round: false, height, width, wall, girth: 2 * (height + width) - (8 - 2 * Math.PI) * outer}, area};
 }
@@ -181,7 +182,9 @@ function densityOf(file: Nc1, {area}: Tube, ours: boolean, tell: (id: string, ty
     return undefined;
   }
   if (!ours) tell('header', 'weight', `assumed: a density of ${Number(density.toPrecision(3))} kg/m3 by its ${weight} kg/m`);
-  return Number(density.toPrecision(ours ? 6 : 3));
+  // The roundest number that the header's three decimals mean.
+  const digits = [2, 3, 4, 5, 6].find((each) => Math.abs(Number(density.toPrecision(each)) - density) <= (0.0006 / weight) * density);
+  return Number(density.toPrecision(ours ? (digits ?? 6) : 3));
 }
 
 function read(file: Nc1, stated: Stated, tube: Tube, tell: (id: string, type: string, reason: string) => void): {part: Part; sources: ImportedPart['sources']} {
@@ -200,6 +203,7 @@ function read(file: Nc1, stated: Stated, tube: Tube, tell: (id: string, type: st
     cutouts: [],
     from: [],
     marks: [],
+    over: 0,
     slots: {line: 0, count: 0, turned: false},
   };
   // The near side of a cut-out through both walls comes before its far side.
@@ -209,7 +213,8 @@ function read(file: Nc1, stated: Stated, tube: Tube, tell: (id: string, type: st
     if (block.code === 'BO' || block.code === 'IK') openings(into, block);
     if (block.code === 'SI') texts(into, block);
   }
-  const {slots} = into;
+  const {slots, over} = into;
+  if (over > 0) tell('file', 'NC1', `${over} more cut-outs are not in the part, because it has at most ${limits.cutouts}: split it`);
   if (slots.count > 0) {
     const sense = slots.turned ? ', and its angle grows from x to y' : '';
     at(slots.line, 'BO', `assumed: x and y of a slot are its middle${sense}; of ${slots.count} ${slots.count === 1 ? 'slot' : 'slots'}`);

@@ -19,6 +19,8 @@ export interface Openings {
   /** Line and block of each cut-out. */
   from: {id: string; line: number; type: string}[];
   marks: Mark[];
+  /** Number of cut-outs that a part has no place for. */
+  over: number;
   slots: {line: number; count: number; turned: boolean};
 }
 
@@ -50,7 +52,10 @@ function spotOf({frame, start}: Openings, face: Face, x: number, y: number): Spo
 const turnedBy = ({frame}: Openings, face: Face, deg: number): number => (frame.kind === 'developed' ? -deg : faces[face].sign * deg) + 0;
 
 function add(to: Openings, block: Block, line: number, cutout: Cutout): void {
-  if (to.cutouts.length >= limits.cutouts) throw new Trouble(`a part has at most ${limits.cutouts} cut-outs: split it`);
+  if (to.cutouts.length >= limits.cutouts) {
+    to.over += 1;
+    return;
+  }
   to.cutouts.push(cutout);
   to.from.push({id: cutout.id, line, type: block.code});
 }
@@ -61,7 +66,7 @@ function shifted(radius: number, up: number): CutoutShape {
   return {kind: 'contour', start_mm: [-radius, up], pieces: [arc(radius), arc(-radius)]};
 }
 
-const kinds: Record<string, string> = {g: 'a thread', l: 'a left-hand thread', m: 'a mark, not a hole', s: 'a countersink'};
+const kinds: Record<string, string> = {g: 'a thread', l: 'a left-hand thread', m: 'a punch mark', s: 'a countersink'};
 
 /** A row of BO: face, x, y, diameter, depth, and of a slot the way between its centres, its width and its angle. */
 function bore(to: Openings, block: Block, row: Row, face: Face): void {
@@ -138,7 +143,8 @@ function loopsOf({rows}: Block): Row[][] {
 function contour(to: Openings, block: Block, loop: Row[], face: Face): void {
   const line = loop[0]?.line ?? block.line;
   const curved = loop.find(({values}) => (values[2]?.value ?? 0) !== 0 || values[1]?.letter);
-  if (curved) throw new Trouble(`line ${curved.line} has a radius or a notch, and the side on which it lies is not known: draw arcs as short lines`);
+  if (curved) throw new Trouble(`it has a radius or a notch in line ${curved.line}, and the side on which it lies is not known: draw arcs as short lines`);
+  if (loop.length > limits.points) throw new Trouble(`the contour has ${loop.length} points, and at most ${limits.points} are read: draw it coarser`);
   const full = loop.map(({values}): Point => [values[0]?.value ?? 0, values[1]?.value ?? 0]);
   full[full.length - 1] = full[0] as Point;
   // From the point that is furthest from the first, because a ring has no two ends to begin with.

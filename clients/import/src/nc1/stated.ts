@@ -12,7 +12,7 @@ export interface StatedEnd {
 export interface Stated {
   ours: boolean;
   work?: [start: number, finish: number];
-  innerCorner?: number;
+  corners?: {outside: number; inside: number};
   start?: StatedEnd;
   finish?: StatedEnd;
 }
@@ -38,6 +38,9 @@ function valuesOf(text: string, names: readonly string[]): Map<string, string> {
 }
 const numbers = (text: string | undefined): number[] => (text ?? '').split(/ x | /).map(decimal);
 
+const isWhole = (value: unknown): boolean =>
+  typeof value === 'number' ? Number.isFinite(value) : typeof value !== 'object' || value === null || Object.values(value).every(isWhole);
+
 function grooveOf(text: string): Record<string, unknown> | undefined {
   const half = /^half the dihedral, cap (\S+)$/.exec(text);
   const fixed = /^fixed (\S+)$/.exec(text);
@@ -46,6 +49,7 @@ function grooveOf(text: string): Record<string, unknown> | undefined {
   return text === 'none' || text === 'square' ? {rule: text} : undefined;
 }
 
+const contacts = ['inner', 'outer', 'auto', 'none'];
 const lengths = {'root face': 'root_face_mm', 'root gap': 'root_gap_mm', coating: 'coating_mm'} as const;
 
 function endOf(text: string): StatedEnd | undefined {
@@ -59,7 +63,8 @@ function endOf(text: string): StatedEnd | undefined {
   const groove = grooveOf(found.get('groove') ?? '');
   const sizes = Object.entries(lengths).map(([name, field]) => [field, decimal(found.get(name))] as const);
   const [contact, root] = [found.get('contact'), found.get('root')];
-  if (![x, nx, ny, nz, ...sizes.map(([, value]) => value)].every(Number.isFinite) || more.length > 0 || !nz || !groove || !contact || !root) return undefined;
+  if (![x, nx, ny, nz, ...sizes.map(([, value]) => value)].every(Number.isFinite) || more.length > 0 || !nz || !groove || !isWhole(groove)) return undefined;
+  if (!contact || !contacts.includes(contact) || !root || !['inner', 'outer'].includes(root)) return undefined;
   const rest = {
     root_surface: root,
     groove,
@@ -77,8 +82,8 @@ export function statedBy(comments: string[]): Stated {
   for (const each of comments) {
     const [, work, finish] = /^work points: x (\S+) and (\S+)$/.exec(each) ?? [];
     if (Number.isFinite(decimal(work)) && Number.isFinite(decimal(finish))) out.work = [decimal(work), decimal(finish)];
-    const inner = decimal(/^inner corner radius (\S+)$/.exec(each)?.[1]);
-    if (inner >= 0) out.innerCorner = inner;
+    const [outside, inside] = (/^corner radii: (\S+) outside, (\S+) inside$/.exec(each)?.slice(1) ?? []).map(decimal);
+    if (outside !== undefined && inside !== undefined && outside > 0 && inside >= 0) out.corners = {outside, inside};
     const end = /^end (start|finish): (.*)$/.exec(each);
     const found = end && endOf(end[2] as string);
     if (found) out[end[1] as 'start' | 'finish'] = found;
@@ -136,9 +141,6 @@ function shapeOf(text: string, lines: string[]): CutoutShape | undefined {
   return contour ? {...contour, ...corners, ...turned, ...(found.has('mirrored') ? {mirrored: true} : {})} : undefined;
 }
 
-const isWhole = (value: unknown): boolean =>
-  typeof value === 'number' ? Number.isFinite(value) : typeof value !== 'object' || value === null || Object.values(value).every(isWhole);
-
 /** The cut-out that the comments before a block state; undefined if they do not state all of it. */
 export function statedShape(comments: string[]): StatedShape | undefined {
   const at = comments.findIndex((each) => each.startsWith('shape: '));
@@ -148,7 +150,8 @@ export function statedShape(comments: string[]): StatedShape | undefined {
   const found = valuesOf(text, ['wall', 'tilt', 'at x', 'y']);
   const [wall, tilt] = [found.get('wall'), found.get('tilt')];
   const [x, y] = [decimal(found.get('at x')), decimal(found.get('y'))];
-  return shape && wall && tilt && isWhole(shape) && Number.isFinite(x) && Number.isFinite(y) ? {shape, wall, tilt, x, y} : undefined;
+  if (!wall || !['normal', 'through', 'developed'].includes(wall) || !tilt || !['axial', 'free', 'none'].includes(tilt)) return undefined;
+  return shape && isWhole(shape) && Number.isFinite(x) && Number.isFinite(y) ? {shape, wall, tilt, x, y} : undefined;
 }
 
 export interface Title {

@@ -77,7 +77,7 @@ const value = /^\s*,?\s*([-+]?(?:\d+(?:\.\d*)?|\.\d+))([a-zA-Z]?)(?![\w.])/;
 function rowOf(text: string, line: number): Row {
   const shown = clean(text.trim().slice(0, 60));
   if (text.length > longest) throw new Trouble(`the line has ${text.length} characters, and at most ${longest} are read`);
-  const first = /^\s*([vouhVOUH])(?=[\s\d.+-])/.exec(text);
+  const first = /^\s*([vouhVOUH])(?=[\s,\d.+-])/.exec(text);
   let rest = first ? text.slice(first[0].length) : text;
   const values: Row['values'] = [];
   for (let found = value.exec(rest); found; found = value.exec(rest)) {
@@ -91,7 +91,7 @@ function rowOf(text: string, line: number): Row {
 
 /** A text to be marked: face, x, y, angle, height, text. */
 function markOf(text: string, line: number): Row {
-  const found = /^\s*[vouhVOUH]?\s*[-+.\d]+[a-z]?[\s,]+[-+.\d]+[a-z]?[\s,]+[-+.\d]+[a-z]?[\s,]+\d+(?:\.\d*)?[a-z]?\s*/.exec(text.slice(0, longest));
+  const found = /^\s*[vouhVOUH]?[\s,]*[-+.\d]+[a-z]?[\s,]+[-+.\d]+[a-z]?[\s,]+[-+.\d]+[a-z]?[\s,]+\d+(?:\.\d*)?[a-z]?\s*/.exec(text.slice(0, longest));
   if (!found) throw new Trouble(`"${clean(text.trim().slice(0, 60))}" is not face, x, y, angle, height and text`);
   return {...rowOf(found[0], line), text: text.slice(found[0].length).trim()};
 }

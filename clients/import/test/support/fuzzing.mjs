@@ -1,9 +1,10 @@
 // Files that are cut, doubled, exchanged and garbled at random, by a seed: each gives a valid
-// frame, or no frame, and a list with the reasons.
+// frame or part, or none, and a list with the reasons.
 import assert from 'node:assert/strict';
 import {readdirSync, readFileSync} from 'node:fs';
-import {fromCsv, fromDxf, fromIfc, fromPcf, layersOf} from '../../dist/index.js';
+import {fromCsv, fromDxf, fromIfc, fromNc1, fromPcf, layersOf} from '../../dist/index.js';
 import {models} from './models.mjs';
+import {samples} from './nc1_files.mjs';
 import {file} from './profiles.mjs';
 import {pick, random} from './random.mjs';
 import {spool} from './spools.mjs';
@@ -18,17 +19,19 @@ const dxf = pairs([0, 'SECTION'], [2, 'HEADER'], [9, '$INSUNITS'], [70, 4], [0, 
 
 const strange = ['*', '$', '#1', '#999999', '()', "'", '"', ',', ';', '=', '\t', '\n', '\0', '-', '1e999', 'NaN', '0', '-1', '1e-320', '99999999999999999999', '__proto__', 'constructor', '0x10', '\u202e', '\ud800', 'é', '\u001b[31m', 'END-POINT', 'TAP-CONNECTION', 'OLET', 'IFCPOLYLINE', '.T.', '(', ')', '/*', '*/'];
 
-function mutant(next, text, other) {
+const strangeInNc1 = ['BO', 'IK', 'AK', 'EN', '** ', '** shape: ', '; ', 'l', 'w', 'g', '-1', '1e999', 'NaN', '0', '99999999999999999999', '__proto__', '\0', '\n', ',', '\u202e', '\ud800', 'é', '\u001b[31m', 'RO', 'M', 'v', 'u'];
+
+function mutant(next, text, other, odd = strange) {
   let out = text;
   for (let n = 1 + Math.floor(4 * next()); n > 0; --n) {
     const [a, b] = [0, 1].map(() => Math.floor(next() * out.length)).sort((p, q) => p - q);
     out = pick(next, [
-      () => out.slice(0, a) + pick(next, strange) + out.slice(a),
+      () => out.slice(0, a) + pick(next, odd) + out.slice(a),
       () => out.slice(0, a) + out.slice(Math.min(b, a + 40)),
       () => out.slice(0, a) + out.slice(a, Math.min(b, a + 300)).repeat(2) + out.slice(a),
       () => out.slice(0, a),
       () => out.replace(/#\d+(?=[,)])/g, (all) => (next() < 0.02 ? `#${1 + Math.floor(60 * next())}` : all)),
-      () => out.replace(/-?\d+\.?\d*/g, (all) => (next() < 0.02 ? pick(next, strange) : all)),
+      () => out.replace(/-?\d+\.?\d*/g, (all) => (next() < 0.02 ? pick(next, odd) : all)),
       () => out.slice(0, a) + other.slice(a, b) + out.slice(b),
       () => {
         const lines = out.split('\n');
@@ -43,11 +46,28 @@ function mutant(next, text, other) {
 
 const isPoint = (p) => Array.isArray(p) && p.length === 3 && p.every(Number.isFinite);
 
+/** Properties of a part: numbers in it are numbers, and everything that a request must have is there. */
+function soundPart({target, ends, cutouts = [], marks = [], kerf_mm: kerf}, told) {
+  const numbers = (value) => (typeof value === 'object' && value !== null ? Object.values(value).every(numbers) : typeof value !== 'number' || Number.isFinite(value));
+  assert.ok(numbers([target, ends, cutouts, marks, kerf]) && kerf >= 0 && target.length_mm > 0, told);
+  if (target.kind === undefined) assert.ok(target.wall_mm > 0 && 2 * target.wall_mm < target.outer_diameter_mm, told);
+  else assert.ok(target.wall_mm > 0 && 2 * target.wall_mm < Math.min(target.height_mm, target.width_mm), told);
+  for (const end of [ends.start, ends.finish]) assert.ok(typeof end.square_at_mm === 'number' || isPoint(end.cutters[0].normal), told);
+  const ids = cutouts.map(({id}) => id);
+  assert.ok(new Set(ids).size === ids.length && ids.length <= 2000 && ids.every((id) => id.length > 0 && id.length <= 64), told);
+  for (const {shape} of cutouts) assert.ok(shape.kind !== 'contour' || (shape.pieces.length > 0 && shape.pieces.length <= 500), told);
+  for (const {text} of marks) assert.ok(text.length > 0 && text.length <= 64, told);
+}
+
 /** Properties of every import. */
-export function sound({frame, notUnderstood, asks, sources}, told) {
+export function sound({frame, part, notUnderstood, asks, sources}, told) {
   for (const {id, type, reason} of notUnderstood)
     for (const each of [id, type, reason]) assert.ok(typeof each === 'string' && !/[\u0000-\u001f\u007f-\u009f\u2028\u2029]/.test(each) && each.length <= 600, told);
   assert.ok(Array.isArray(asks) && Array.isArray(sources), told);
+  if (part) {
+    soundPart(part, told);
+    return;
+  }
   if (!frame) {
     assert.ok(notUnderstood.length > 0, `${told}: no frame, and an empty list`);
     return;
@@ -100,4 +120,13 @@ export async function fuzz(seed, number) {
   const found = await read[kind](text, next);
   sound(found, `seed ${seed}, case ${number}, ${kind}`);
   return {kind, frame: found.frame !== null};
+}
+
+/** The same of NC1, which is a part: a sequence of its own, so that the cases of the others stay. */
+export function fuzzNc1(seed, number) {
+  const next = random(seed * 1000003 + number);
+  const text = mutant(next, pick(next, samples), pick(next, samples), strangeInNc1);
+  const found = fromNc1(text, pick(next, [{}, {corners: 'en_10219'}, {fields: {kerf_mm: 1}}]));
+  sound(found, `seed ${seed}, case ${number}, NC1`);
+  return {kind: 'nc1', part: found.part !== null};
 }
