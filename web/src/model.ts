@@ -1,4 +1,4 @@
-import type {Imported, LengthUnit, Size} from './importer';
+import type {Imported, ImportedPart, LengthUnit, Size} from './importer';
 
 export type Importer = typeof import('./importer');
 /** Values that a file lacks, by the name of their control. */
@@ -16,7 +16,7 @@ export interface Question {
 }
 export interface Kind {
   questions(importer: Importer, text: string, schedules: string[]): Question[];
-  read(importer: Importer, file: Uint8Array, answers: Answers): Imported | Promise<Imported>;
+  read(importer: Importer, file: Uint8Array, answers: Answers): Imported | ImportedPart | Promise<Imported>;
 }
 
 export const text = (file: Uint8Array): string => new TextDecoder().decode(file);
@@ -147,4 +147,12 @@ export const kinds: Record<string, Kind> = {
 // A table may have other names.
 kinds['tsv'] = kinds['csv'] as Kind;
 kinds['txt'] = kinds['csv'] as Kind;
+// One tube, which becomes a part.
+const nc1: Kind = {
+  questions: () => [corner],
+  read: (importer, file, answers) => importer.fromNc1(file, cornersOf(answers)),
+};
+kinds['nc1'] = nc1;
+kinds['nc'] = nc1;
+kinds['dstv'] = nc1;
 export const endings = Object.keys(kinds).map((each) => `.${each}`);

@@ -1,4 +1,4 @@
-import type {Imported} from './importer';
+import type {Imported, ImportedPart} from './importer';
 import type {Answers, Question} from './model';
 
 /** An order to read a file: without answers it returns questions, else the content. */
@@ -8,7 +8,7 @@ export interface Order {
   schedules: string[];
   answers?: Answers;
 }
-export type Told = {questions: Question[]} | {imported: Imported} | {failure: string};
+export type Told = {questions: Question[]} | {imported: Imported | ImportedPart} | {failure: string};
 
 const patience = 60; // s: models of thousands of tubes take a few
 

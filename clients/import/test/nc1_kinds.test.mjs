@@ -1,4 +1,4 @@
-// NC1 of other programs, and what is refused or listed. The service takes what is imported; TUBECUT_SERVER is the binary.
+// NC1 of other programs, refusals and lists. The service takes what is imported; TUBECUT_SERVER is the binary.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
@@ -61,7 +61,7 @@ test('a saw\'s angle that the outline does not have is listed, and is a plane wh
   const found = fromNc1(file({saw: [0, 60.8, 0, 0], blocks: []}));
   assert.deepEqual(said(found), ["header finish: assumed: a plane by the saw's angle of 60.8 deg, because the file has no AK"]);
   const [nx, , nz] = found.part.ends.finish.cutters[0].normal;
-  // The side of face 1 is the shorter one, as in a file whose outline says so.
+  // The side of face 1 is the shorter one, as if an outline drew it.
   const drawn = fromNc1(file({blocks: [outline('v', [[0, 0], [1000, 0], [892.64, 60], [0, 60], [0, 0]])]}));
   assert.match(said(drawn).join('\n'), /assumed: the finish is square across the faces that have no outline/);
   const [x, , z] = drawn.part.ends.finish.cutters[0].normal;
@@ -90,7 +90,7 @@ test('a pipe that is drawn face by face', async () => {
   assert.deepEqual(said(found), []);
   assert.deepEqual(found.part.cutouts.map(({at, shape}) => [at.phi_deg, shape.kind]), [[90, 'circle'], [0, 'circle'], [90, 'contour']]);
   const {cutouts} = await asked(found.part);
-  // A hole that is drilled beside the middle lies nearer to face o: of the bore's radius, 5 to 15 mm off.
+  // A hole that is drilled off the middle lies nearer to face o: of the bore's radius, 5 to 15 mm off.
   const points = cutouts[2].points.phi_deg;
   for (const [phi, off] of [[Math.max(...points), 5], [Math.min(...points), 15]]) assert.ok(Math.abs(90 - phi - (Math.asin(off / 45) * 180) / Math.PI) < 0.01, `${phi}`);
 });
@@ -102,7 +102,7 @@ test('slots: the way between centres, turned on faces whose y runs against the g
   await asked(found.part);
 });
 
-test('what is not read is listed with its line, its limit and its fix', () => {
+test('unsupported items are listed with their line, their limit and their fix', () => {
   const blocks = [
     ...squareFaces(),
     'BO\n  v 100.00s 30.00 9.00g\n  v 120.00s 30.00 9.00 2.00\n  v 140.00s 30.00 0.00\n  v 160.00s 30.00 9.00 0.00 20.00 15.00 0.00\n  v 180.00s what 9.00\n  v 200.00s 30.00 9.00m\n  v 220.00s',
@@ -145,7 +145,7 @@ test('an end that is no plane is not guessed: it is listed with its distance fro
   assert.match(said(radius).join('\n'), /a notch, a radius/);
 });
 
-test('what a hand changed in a file of ours is read from the blocks', async () => {
+test('blocks that a hand changed in a file of ours count before their comments', async () => {
   const body = {target: {outer_diameter_mm: 88.9, wall_mm: 5, length_mm: 600}, ends: {start: {square_at_mm: 0}, finish: {square_at_mm: 0}}, kerf_mm: 1, sampling: {uniform_points: 36},
     cutouts: [{id: 'bolt', shape: {kind: 'circle', diameter_mm: 18}, at: {z_mm: 200, phi_deg: 90}}, {id: 'door', shape: {kind: 'slot', length_mm: 40, width_mm: 20}, at: {z_mm: 300, phi_deg: 90}}]};
   const {status, text} = await service.ask('/v1/parts?format=nc1', {body: JSON.stringify(body)});
@@ -192,7 +192,7 @@ test('corners that cannot be cut are requested', () => {
   }
 });
 
-test('refusals state what is wrong, the limit and the fix', () => {
+test('refusals state the fault, the limit and the fix', () => {
   const blocks = squareFaces();
   refused(file({code: 'I', profile: 'HEB400', blocks}), /profile code I \(HEB400\) is not a tube: this reader takes RO \(round tube\) and M \(rectangular tube\); write the file with one of these codes/);
   for (const code of ['RU', 'L', 'U', 'B', 'SO', '']) refused(file({code, blocks}), /profile code .* is not a tube/);

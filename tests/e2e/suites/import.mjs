@@ -3,6 +3,7 @@
 import {strict as assert} from 'node:assert';
 import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
+import {bores, file, squareFaces} from '../../../clients/import/test/support/nc1_files.mjs';
 import {shift, Step} from '../../../clients/import/test/support/step.mjs';
 import {answered, answers, open, pixels, then} from '../browser.mjs';
 
@@ -199,6 +200,25 @@ export const checks = {
     await page.context().close();
   },
 
+  'an NC1 file becomes a part, on its own page': async ({browser, origin}) => {
+    const page = await frames(browser, origin);
+    const tube = file({blocks: [...squareFaces(), bores(['v', 300, 's', 30, 9], ['v', 340, 's', 30, 9]), 'PU\n  v 1.00 2.00']});
+    await then(page, () => choose(page, 'rail.NC1', tube));
+    assert.equal(await page.locator('#endpoints [aria-current=page]').getAttribute('data-endpoint'), 'parts');
+    assert.match(await page.locator('#imported-said').innerText(), /^A part with 2 cut-outs\. 1 thing was not understood:/);
+    assert.match((await missed(page)).join(), /PU: 1 block \(punch marks\) is not read/);
+    assert.ok(await page.locator('#model').isVisible(), 'the next file can be opened here');
+    const {target, cutouts} = await request(page);
+    assert.deepEqual([target.id, target.length_mm, cutouts.map(({at}) => at.z_mm)], ['R-3', 1000, [300, 340]]);
+    await then(page, () => choose(page, 'node.ifc', ifc()));
+    assert.equal(await page.locator('#endpoints [aria-current=page]').getAttribute('data-endpoint'), 'frames');
+    await choose(page, 'beam.nc', tube.replace('  M\n', '  I\n'));
+    await page.locator('#imported', {hasText: 'No part was found'}).waitFor();
+    assert.match((await missed(page)).join(), /profile code I .* is not a tube/);
+    clean(page);
+    await page.context().close();
+  },
+
   'a file that cannot be read leaves the job as it was': async ({browser, origin}) => {
     const page = await frames(browser, origin);
     const before = await request(page);
@@ -216,7 +236,7 @@ export const checks = {
     await page.context().close();
   },
 
-  'another job ends it, and only frames are imported': async ({browser, origin}) => {
+  'another job ends it, and only frames and parts are imported': async ({browser, origin}) => {
     const page = await frames(browser, origin);
     await then(page, () => choose(page, 'node.ifc', ifc()));
     await then(page, () => page.locator('#example').selectOption('truss-of-19'));

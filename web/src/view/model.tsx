@@ -1,5 +1,5 @@
 import {useLayoutEffect, useRef, useState} from 'preact/hooks';
-import type {Imported} from '../importer';
+import type {Imported, ImportedPart} from '../importer';
 import {clone, type Row} from '../json';
 import {endings, kinds, type Answers, type Question} from '../model';
 import type {Order, Reading} from '../reading';
@@ -9,14 +9,15 @@ interface Opened {
   /** Until the questions of its kind are known, or why they never are. */
   questions?: Question[];
   failure?: unknown;
-  read?(answers: Answers): Promise<Imported>;
+  read?(answers: Answers): Promise<Imported | ImportedPart>;
 }
 interface Given {
   schedules: string[];
   job: number;
   body: Row;
   shown: boolean;
-  take(frame: Row): void;
+  /** Begins a job of the page with this request. */
+  take(page: 'frames' | 'parts', request: Row): void;
 }
 
 const reason = (failure: unknown) => (failure instanceof Error ? failure.message : String(failure));
@@ -53,7 +54,7 @@ async function opened(file: File, schedules: string[]): Promise<Opened> {
 /** An opened model: its button, also a place to drop it, and its messages next to the form. */
 export function useModel({schedules, job, body, shown, take}: Given) {
   const [model, say] = useState<Opened | undefined>();
-  const [found, find] = useState<Imported | {failure: unknown} | undefined>();
+  const [found, find] = useState<Imported | ImportedPart | {failure: unknown} | undefined>();
   const [button, input] = [useRef<HTMLButtonElement>(null), useRef<HTMLInputElement>(null)];
   const answers = useRef<Answers>({});
   const turn = useRef(0); // of a file or an answer; late ones are dropped
@@ -65,9 +66,11 @@ export function useModel({schedules, job, body, shown, take}: Given) {
     const result = await of?.(answers.current).catch((failure: unknown) => ({failure}));
     if (mine !== turn.current || !result) return;
     find(result);
-    if ('failure' in result || !result.frame) return;
-    given.current = clone(result.frame as unknown as Row);
-    take(given.current);
+    if ('failure' in result) return;
+    const request = 'part' in result ? result.part : result.frame;
+    if (!request) return;
+    given.current = clone(request as unknown as Row);
+    take('part' in result ? 'parts' : 'frames', given.current);
   };
   const open = async (file: File) => {
     turn.current += 1;
@@ -126,7 +129,7 @@ export function useModel({schedules, job, body, shown, take}: Given) {
         ref={button}
         id="model"
         type="button"
-        title="A frame out of a model: IFC, PCF, DXF or CSV. It can be dropped here too"
+        title="IFC, PCF, DXF and CSV become a frame, NC1 becomes a part. A file can be dropped here too"
         hidden={!shown}
         onClick={() => input.current?.click()}
       >
@@ -205,11 +208,18 @@ function Asked({question: {key, text: said, choices, hint, check, lines}, value,
 
 const counted = (n: number, one: string, many: string): string => `${n} ${n === 1 ? one : many}`;
 
-/** How much of the file is in the frame, and every thing that is not. */
-function Found({frame, notUnderstood}: Imported) {
+function framed({frame}: Imported): string {
   const others = frame?.others?.length ?? 0;
   const also = others ? ` and ${counted(others, 'other that cuts', 'others that cut')}` : '';
-  const what = frame ? `${counted(frame.members.length, 'member', 'members')}${also}.` : 'No member was found, so the job stays as it was.';
+  return frame ? `${counted(frame.members.length, 'member', 'members')}${also}.` : 'No member was found, so the job stays as it was.';
+}
+const parted = ({part}: ImportedPart): string =>
+  part ? `A part with ${counted(part.cutouts?.length ?? 0, 'cut-out', 'cut-outs')}.` : 'No part was found, so the job stays as it was.';
+
+/** How much of the file is in the request, and every thing that is not. */
+function Found(found: Imported | ImportedPart) {
+  const {notUnderstood} = found;
+  const what = 'part' in found ? parted(found) : framed(found);
   const missed = notUnderstood.length;
   return (
     <>

@@ -105,8 +105,8 @@ function Ask() {
     schedules,
     job: console.job.value,
     body,
-    shown: console.endpoint.value === 'frames',
-    take: (frame) => console.begin('frames', undefined, frame, true),
+    shown: ['frames', 'parts'].includes(console.endpoint.value),
+    take: (page, request) => console.begin(page, undefined, request, true),
   });
   return (
     <section id="ask" aria-label="Request" class={shown ? 'open' : ''} hidden={console.home.value}>

@@ -52,7 +52,7 @@ function planeEnd(x: number, normal: [number, number, number], rest: Record<stri
 /** Without a groove both edges lie on the plane, as a saw leaves them. */
 const sawn = {root_surface: 'inner', groove: {rule: 'none'}, smoothing: {method: 'none'}};
 
-/** The edges of one end, one of each outline, and the outlines that have none. */
+/** Returns the edges of one end, one of each outline, and the outlines that have no such edge. */
 function edgesOf({file, frame}: Reading, which: Which): {edges: Edge[]; odd: Block[]} {
   const [edges, odd]: [Edge[], Block[]] = [[], []];
   for (const block of file.blocks) {
@@ -166,7 +166,7 @@ function byOutline(reading: Reading, which: Which): FoundEnd {
   return planeEnd(exact(plane.a), [-plane.b, -plane.c, 1], sawn, which);
 }
 
-/** Does the outline lie where our own comment says that this end is? Of a plane only the tip is known, because a groove moves the edge. */
+/** Returns true if the outline lies near the end that our own comment states. A groove moves the outer edge off a plane. */
 function agrees(reading: Reading, which: Which, {x, plane}: StatedEnd): boolean {
   const points = edgesOf(reading, which).edges.flatMap((edge) => edge.points);
   if (points.length === 0) return false;

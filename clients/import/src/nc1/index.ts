@@ -76,7 +76,7 @@ function rectangularTube(file: Nc1, stated: Stated, options: CornerOptions): Tub
   return {target: {...section, length_mm: 0}, frame: {round: false, height, width, wall, girth: 2 * (height + width) - (8 - 2 * Math.PI) * outer}, area};
 }
 
-/** The tube of a file; refuses the profiles that are none. */
+/** Returns the tube of a file, and refuses other profiles. */
 function tubeOf(file: Nc1, stated: Stated, options: CornerOptions): Tube {
   const code = (file.header.get('code') ?? '').toUpperCase();
   if (code === 'RO') return roundTube(file);
@@ -111,7 +111,7 @@ const words: Partial<Record<string, string>> = {
   PR: 'sections of the profile',
 };
 
-/** What the blocks of other kinds are, with their counts. */
+/** Lists the blocks of other kinds with their counts. */
 function others(file: Nc1, tell: (id: string, type: string, reason: string) => void): void {
   const counts = new Map<string, {count: number; line: number}>();
   for (const {code, line} of file.blocks) {
@@ -235,7 +235,7 @@ function read(file: Nc1, stated: Stated, tube: Tube, tell: (id: string, type: st
   return {part, sources: into.from.map(({id: name, line, type}) => ({id: name, entity: `line ${line}`, type}))};
 }
 
-/** Returns the request of POST /v1/parts of a tube's NC1 (DSTV) file, and the list of what is not in it. */
+/** Returns the request of POST /v1/parts of a tube's NC1 (DSTV) file, and the list of the items that are not in it. */
 export function fromNc1(source: Uint8Array | string, options: Nc1Options = {}): ImportedPart {
   const notUnderstood: NotUnderstood[] = [];
   const asks: Ask[] = [];

@@ -5,7 +5,7 @@ import type {Cutout, CutoutShape, Mark, Piece, Point, Round} from './part.js';
 import {type StatedShape, statedShape, titleOf} from './stated.js';
 import {type Block, type Face, type Row, Trouble} from './text.js';
 
-/** Adds to the list of what is not read, or is read by an assumption. */
+/** Adds to the list of items that are not read, or are read by an assumption. */
 export type Tell = (line: number, type: string, reason: string) => void;
 
 export interface Openings {
@@ -86,7 +86,7 @@ function bore(to: Openings, block: Block, row: Row, face: Face): void {
   const off = spot.up(y.value);
   const turn = turnedBy(to, face, angle?.value ?? 0);
   if (long !== 0) {
-    if (Math.abs(off) > same) throw new Trouble('a slot beside the middle of a round tube that is drawn face by face is not read');
+    if (Math.abs(off) > same) throw new Trouble('a slot off the middle of a round tube that is drawn face by face is not read');
     to.slots.line ||= row.line;
     to.slots.count += 1;
     to.slots.turned ||= turn % 90 !== 0;
@@ -217,7 +217,7 @@ function stated(to: Openings, block: Block, face: Face): boolean {
   return true;
 }
 
-/** Reads the cut-outs of a block, row by row or contour by contour; what is not read is listed. */
+/** Reads the cut-outs of a block, row by row or contour by contour, and lists those that it cannot read. */
 export function openings(to: Openings, block: Block): void {
   let face: Face | undefined;
   const faceOf = (row: Row | undefined): Face => {

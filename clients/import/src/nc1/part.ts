@@ -47,7 +47,7 @@ export interface Part {
   [field: string]: unknown;
 }
 
-/** As the result of the other importers, for one part: `part` is null if there is none. */
+/** The result for one part, as that of the other importers: `part` is null if the file is refused. */
 export interface ImportedPart {
   part: Part | null;
   notUnderstood: NotUnderstood[];

@@ -75,7 +75,7 @@ function endOf(text: string): StatedEnd | undefined {
   return {x, kerf, plane: {normal: [nx as number, ny as number, nz], rest}};
 }
 
-/** What the comments of our own files state of the part; files of others have none of these lines. */
+/** Reads the lines that our own files have in addition; if another program wrote the file, returns only that. */
 export function statedBy(comments: string[]): Stated {
   const out: Stated = {ours: comments.some((each) => /^tubecut \d/.test(each))};
   if (!out.ours) return out;

@@ -48,7 +48,7 @@ function rectangularTarget(next) {
   return {kind: 'rectangular_tube', height_mm, width_mm, wall_mm, ...corners};
 }
 
-/** Case `number` of a seed. `plain`: of what the blocks alone state, ends square or flush, walls square to the tube. */
+/** Case `number` of a seed. `plain`: only of features that the blocks state without comments, ends square or flush, walls square to the tube. */
 export function drawnPart(seed, number, plain = false) {
   const next = random(seed * 7919 + number);
   const isRound = next() < 0.5;
