@@ -137,6 +137,8 @@ class WholePart(FormatTest):
                     self.assertAlmostEqual(off, round(off), delta=2e-3 / radius)
                     self.assertEqual((diameter, depth), (asked, 0))
                 self.assertIn("AK: the tube itself, kept within; IK: an opening of it, kept outside", file["comments"])
+                near = [one["id"] for group, one in cutouts(result) if group["side"] == "near"]
+                self.assertEqual(len([c for c in file["comments"] if c.startswith("shape: ")]), len(near), "the near side of each states its shape")
                 tables = rows_of(file["comments"])
                 self.assertEqual(set(tables), {"start", "finish"} | {f"hole {i}" for i in range(len(result["holes"]))})
                 for cut, rows in tables.items():

@@ -47,7 +47,7 @@ test(`${parts} drawn parts: the imported request gives the same part`, async (of
     const [asked, read] = [await answerOf(body), await answerOf({...part, sampling: body.sampling})];
     const name = ['order', 'part', 'material', 'quantity'].map((each) => part.reference?.[each]);
     assert.deepEqual(name, ['order', 'part', 'material', 'quantity'].map((each) => body.reference?.[each]), told);
-    if (!body.reference) assert.equal(part.target.id, body.target.id, told);
+    assert.equal(part.target.id, body.target.id, told);
     for (const length of ['work_point_mm', 'long_mm', 'short_mm', 'volume_mm3', 'mass_kg']) close(asked.lengths[length], read.lengths[length], Math.max(2e-6 * asked.lengths[length], 2e-6), `${told} ${length}`);
     sameEnds(asked, read, 1e-5, told);
     const before = instances(asked);

@@ -1,7 +1,7 @@
 // NC1 of other programs, refusals and lists. The service takes what is imported; TUBECUT_SERVER is the binary.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
-import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
@@ -159,6 +159,16 @@ test('blocks that a hand changed in a file of ours count before their comments',
   assert.equal(longer.part.target.length_mm + 0 * longer.part.ends.finish.square_at_mm, 600);
   assert.equal(longer.part.ends.finish.square_at_mm, -50);
   await asked(longer.part);
+});
+
+test('holes for branches and marks of partners in a file of ours are listed', async () => {
+  const body = readFileSync(new URL('../../../examples/parts/chord-with-holes.json', import.meta.url), 'utf8');
+  const {text} = await service.ask('/v1/parts?format=nc1', {body});
+  const found = fromNc1(text);
+  assert.deepEqual(said(found).map((each) => each.replace(/^line \d+/, 'line')), [
+    ...Array(2).fill('line IK: assumed: a hole for a branch is an opening with this outline, square to the tube; its branch is not stated, and its bevel is not read'),
+    'comments marks: 2 marks of partners are not read']);
+  await asked(found.part);
 });
 
 test('a flat oval of ours comes back', async () => {

@@ -130,6 +130,24 @@ const given = (text: string | undefined): string | undefined => {
   return shown === '' || /^-+$/.test(shown) ? undefined : shown;
 };
 
+/**
+ * Marks of our own files, which are comments for a person: the name of the target, in the middle of the datum line, and the number of
+ * partners, whose exact places the comments do not have.
+ */
+function marksOf(file: Nc1): {name?: string; partners: number} {
+  const line = file.comments.map((each) => /^mark "0" on the middle of face 1, x (\S+) to (\S+)$/.exec(each)).find(Boolean);
+  const middle = (Number(line?.[1]) + Number(line?.[2])) / 2;
+  let [name, partners]: [string | undefined, number] = [undefined, 0];
+  for (const each of file.comments) {
+    const round = /^mark by hand: (the name|partner) (.*) at phi /.exec(each);
+    const face = /^mark "(.*)" on the middle of face 1, x (\S+)$/.exec(each);
+    const isName = round ? round[1] === 'the name' : face && Math.abs(Number(face[2]) - middle) <= 2 * near;
+    if (isName && name === undefined) name = (round?.[2] ?? face?.[1]) as string;
+    else if (round || face) partners += 1;
+  }
+  return {...(name === undefined ? {} : {name}), partners};
+}
+
 /** Order, drawing, grade and quantity; the piece names the target, of our files the part that the reference had. */
 function referenceOf(file: Nc1, stated: Stated): {id?: string; reference?: Record<string, string | number>} {
   const reference: Record<string, string | number> = {};
@@ -156,7 +174,8 @@ function referenceOf(file: Nc1, stated: Stated): {id?: string; reference?: Recor
   const askedFor = !stated.ours || file.comments.some((each) => each.startsWith('quantity: '));
   if (Number.isInteger(quantity) && quantity > 0 && quantity <= 99999 && askedFor && of('quantity') !== undefined) reference['quantity'] = quantity;
   const piece = of('piece');
-  const id = piece !== undefined && reference['part'] !== piece ? {id: piece} : {};
+  const name = stated.ours ? given(marksOf(file).name) : undefined;
+  const id = name !== undefined ? {id: name} : piece !== undefined && reference['part'] !== piece ? {id: piece} : {};
   return {...id, ...(Object.keys(reference).length > 0 ? {reference} : {})};
 }
 
@@ -250,6 +269,8 @@ export function fromNc1(source: Uint8Array | string, options: Nc1Options = {}): 
     const stated = statedBy(file.comments);
     const found = read(file, stated, tubeOf(file, stated, options), tell);
     unused(file, tell, stated.ours);
+    const {partners} = stated.ours ? marksOf(file) : {partners: 0};
+    if (partners > 0) tell('comments', 'marks', `${partners} ${partners === 1 ? 'mark of a partner is' : 'marks of partners are'} not read`);
     if (!file.ended) tell('file', 'NC1', 'it has no EN at its end: its last lines may be missing');
     part = {...found.part, ...options.fields};
     sources = found.sources;

@@ -170,7 +170,13 @@ function contour(to: Openings, block: Block, loop: Row[], face: Face): void {
   const pieces = drawn.slice(1).map((to_mm): Piece => ({kind: 'line', to_mm}));
   const wall = to.frame.round && to.frame.kind === 'faces' ? 'normal' : 'developed';
   add(to, block, line, {id, shape: {kind: 'contour', corners: 'as_cut', start_mm: drawn[0] as Point, pieces}, at: spot.at, wall});
-  if (loop.some(({values}) => values.slice(3).some(({value}) => value !== 0)))
+  if (to.ours && !titleOf(block.comments))
+    to.tell(
+      line,
+      block.code,
+      'assumed: a hole for a branch is an opening with this outline, square to the tube; its branch is not stated, and its bevel is not read',
+    );
+  else if (loop.some(({values}) => values.slice(3).some(({value}) => value !== 0)))
     to.tell(line, block.code, 'assumed: its wall is square to the tube; the angles of its weld preparation are not read');
 }
 

@@ -104,8 +104,8 @@ export const hostile = [
   ['300 000 blocks of NC1', 'nc1', () => file({blocks: [...squareFaces(), ...many(300000, () => 'KO')]}), /300000 blocks/],
   ['digits without end in NC1', 'nc1', () => file({blocks: [...squareFaces(), `BO\n  v ${digits} 1.00 2.00\n  v ${'1'.repeat(80)} 1.00 2.00`]}), /at most 400 are read/],
   ['20 000 holes in a tube', 'nc1', () => file({blocks: [...squareFaces(), `BO\n${many(20000, (i) => `  v ${i}.00 30.00 2.00\n`).join('')}`]}), /18000 more cut-outs are not in the part, because it has at most 2000/],
-  ['an opening of 300 000 points', 'nc1', () => file({blocks: [...squareFaces(), outline('v', [...many(300000, (i) => [i, 10 + (i % 2)]), [0, 10]], 'IK')]}), /at most 10000 are read/],
-  ['an outline of 300 000 points', 'nc1', () => file({blocks: [outline('v', [...many(300000, (i) => [i % 2, (60 * i) / 299999]).reverse(), [1000, 0], [1000, 60], [1, 60]])]}), /mm off the nearest plane/],
+  ['an opening of 60 000 points', 'nc1', () => file({blocks: [...squareFaces(), outline('v', [...many(60000, (i) => [i, 10 + (i % 2)]), [0, 10]], 'IK')]}), /at most 10000 are read/],
+  ['an outline of 60 000 points', 'nc1', () => file({blocks: [outline('v', [...many(60000, (i) => [i % 2, (60 * i) / 59999]).reverse(), [1000, 0], [1000, 60], [1, 60]])]}), /mm off the nearest plane/],
   ['fields named __proto__ in our own comments', 'nc1', () => ours.replace('shape: circle 18; wall through', 'shape: __proto__ 18; constructor 1; wall through').replace('EN\r\n', 'PU\r\nEN\r\n'), /punch marks/],
   ['comments without end', 'nc1', () => ours.replace('** work points', `** end start: ${'square at x 0; '.repeat(100000)}\r\n** shape: ${'9'.repeat(1000000)}\r\n** work points`).replace('EN\r\n', 'PU\r\nEN\r\n'), /punch marks/],
 ];
