@@ -222,7 +222,7 @@ class PartWriter {
       const auto* own = said(hole.joint);
       Json::Object one{{"branch", branch_of(hole, names)}, {"joint", Json{std::move(joint)}}};
       if (hole.square) {
-        add_own_cut(own, how, one);
+        add_square_cut(own, how, one);
       } else {
         TRY(auto groove, hole_groove(hole));
         one.emplace_back("groove", std::move(groove));
@@ -234,12 +234,14 @@ class PartWriter {
     return Json{std::move(out)};
   }
 
-  /// A square hole takes nothing of the defaults; what its own joint states is refused by the part.
-  static void add_own_cut(const OwnCut* own, const frame::How& how, Json::Object& out) {
-    if (own == nullptr) return;
-    const bool of_end = how.kind == frame::How::Kind::set_on;
-    if (!of_end && !(own->groove == Json{})) out.emplace_back("groove", own->groove);
-    if (!(own->tilt == Json{})) out.emplace_back("tilt", own->tilt);
+  /// A square hole takes nothing of the defaults; what its own joint states may be refused by the
+  /// part.
+  static void add_square_cut(const OwnCut* own, const frame::How& how, Json::Object& out) {
+    const bool of_end = own == nullptr || how.kind == frame::How::Kind::set_on;
+    out.emplace_back("groove", of_end || own->groove == Json{}
+                                   ? Json{Json::Object{{"rule", Json{"square"}}}}
+                                   : own->groove);
+    out.emplace_back("tilt", own == nullptr || own->tilt == Json{} ? Json{"none"} : own->tilt);
   }
 
   /// Set on: that of the branch's end.

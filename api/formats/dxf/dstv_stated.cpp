@@ -1,8 +1,8 @@
 #include "api/formats/dxf/dstv_stated.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <variant>
@@ -16,7 +16,11 @@ namespace tubecut::api {
 namespace {
 
 std::string stated(double value) {
-  return fmt::format("{:.12g}", std::round(value * 1e9) * 1e-9 + 0.0);
+  std::array<char, 32> digits{};
+  const auto [end, error] =
+      std::to_chars(digits.data(), digits.data() + digits.size(),
+                    std::round(value * 1e9) * 1e-9 + 0.0, std::chars_format::general, 12);
+  return error == std::errc() ? std::string(digits.data(), end) : std::string();
 }
 std::string stated(const cutout::Flat& at) { return stated(at.x()) + " " + stated(at.y()); }
 std::string field(std::string_view name, double value) {
