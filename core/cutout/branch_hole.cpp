@@ -66,7 +66,7 @@ tl::unexpected<Error> along_tube() {
 tl::unexpected<Error> beside_tube() {
   return fail({.code = ErrorCode::open_profile,
                .member = "axis",
-               .hint = "the branch's axis passes beside the tube"});
+               .hint = "the branch's axis misses the tube"});
 }
 
 /// The face by which the axis leaves a tube that is not round.

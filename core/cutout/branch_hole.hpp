@@ -41,8 +41,8 @@ struct BranchHole {
 /// `wall` is of a tube that is not round, else nullptr; `zero`: the part's phi = 0 in the start's
 /// frame.
 ///
-/// Errors    at the branch: parallel_axes (it runs along the tube), open_profile (its axis passes
-///           beside the tube), unsupported_combination (it leans on a round tube: its hole there is
+/// Errors    at the branch: parallel_axes (it runs along the tube), open_profile (its axis
+///           misses the tube), unsupported_combination (it leans on a round tube: its hole there is
 ///           no straight prism).
 /// Accuracy  the wall is nowhere nearer to the branch than the gap; straight sides and those of
 ///           branches at right angles are exact, the others are within 2e-4 mm.

@@ -185,8 +185,7 @@ TEST(SquareHoles, OfAFenceFitItsBarsHoweverItIsDrawn) {
     const Size& bar = drawing % 3 == 0 ? kPicket : drawing % 3 == 1 ? kBar : kOval;
     const bool through = drawing % 2 == 0;
     const auto fence = drawn_fence(random, bar, through, drawing % 4 < 2 ? 0.0 : 0.5);
-    const Matrix3d turn =
-        Eigen::AngleAxisd(0.1 * drawing, Vector3d::UnitZ()).matrix();
+    const Matrix3d turn = Eigen::AngleAxisd(0.1 * drawing, Vector3d::UnitZ()).matrix();
     const auto answer = post(kFrames, frame_of(fence, turn));
     ASSERT_FALSE(answer.outcome.error) << drawing << answer.outcome.body.substr(0, 1500);
     EXPECT_EQ(at(answer.body, "verification/passed"), Json{true}) << drawing;

@@ -1,5 +1,4 @@
 #include "core/part/webs.hpp"
-#include "tests/support/drawings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +6,8 @@
 #include <iostream>
 #include <limits>
 #include <random>
+
+#include "tests/support/drawings.hpp"
 
 namespace tubecut::part {
 namespace {
