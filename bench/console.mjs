@@ -5,7 +5,7 @@ import {Service} from '../tests/contract/service.mjs';
 import {answered, launch, open} from '../tests/e2e/browser.mjs';
 
 const {values} = parseArgs({options: {
-  server: {type: 'string'}, chromium: {type: 'string', default: '/usr/bin/chromium'}, runs: {type: 'string', default: '20'},
+  server: {type: 'string'}, chromium: {type: 'string', default: '/usr/bin/chromium-headless-shell'}, runs: {type: 'string', default: '20'},
 }});
 const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
 const tail = (list) => [...list].sort((a, b) => a - b)[Math.ceil(0.95 * list.length) - 1];

@@ -4,7 +4,7 @@ import {Service} from '../contract/service.mjs';
 import {answered, launch, open, pixels} from './browser.mjs';
 
 const {values, positionals: [hash = '#/bevel-tables/source-000-table-1', pointer = '/cutters/0/inclination_deg']} = parseArgs({allowPositionals: true, options: {
-  server: {type: 'string'}, chromium: {type: 'string', default: '/usr/bin/chromium'},
+  server: {type: 'string'}, chromium: {type: 'string', default: '/usr/bin/chromium-headless-shell'},
 }});
 const service = await Service.start(values.server);
 const browser = await launch(values.chromium);

@@ -6,7 +6,7 @@ import {Service} from '../contract/service.mjs';
 import {launch} from './browser.mjs';
 
 const {values, positionals: [suite]} = parseArgs({allowPositionals: true, options: {
-  server: {type: 'string'}, chromium: {type: 'string', default: '/usr/bin/chromium'}, seed: {type: 'string'},
+  server: {type: 'string'}, chromium: {type: 'string', default: '/usr/bin/chromium-headless-shell'}, seed: {type: 'string'},
 }});
 const {checks} = await import(`./suites/${suite}.mjs`);
 assert.ok(Object.keys(checks).length > 0, 'an empty suite');

@@ -3,7 +3,7 @@ import {parseArgs} from 'node:util';
 import {Service} from '../contract/service.mjs';
 import {answered, launch, open, pixels} from './browser.mjs';
 
-const {values} = parseArgs({options: {server: {type: 'string'}, chromium: {type: 'string', default: '/usr/bin/chromium'}, out: {type: 'string'}}});
+const {values} = parseArgs({options: {server: {type: 'string'}, chromium: {type: 'string', default: '/usr/bin/chromium-headless-shell'}, out: {type: 'string'}}});
 const service = await Service.start(values.server);
 const browser = await launch(values.chromium);
 const origin = `http://127.0.0.1:${service.port}`;
