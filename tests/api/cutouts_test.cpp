@@ -185,7 +185,7 @@ TEST(Cutouts, AllOfThemAreInEveryFile) {
 }
 
 /// If only cut-outs can make a requested opening, because there are more than 64 or because its
-/// branch is not round, the refusal names them.
+/// branch is no tube, the refusal names them.
 TEST(Cutouts, RefusedHolesNameThem) {
   const auto hole = json(R"({"branch": {"outer_diameter_mm": 6, "wall_mm": 1,
                                          "axis": {"point_mm": [0, 0, 100], "direction": [1, 0, 0]}},
@@ -195,7 +195,7 @@ TEST(Cutouts, RefusedHolesNameThem) {
   ASSERT_TRUE(many.outcome.error);
   EXPECT_EQ(text(many.body, "errors/0/pointer"), "/holes");
   EXPECT_NE(text(many.body, "errors/0/hint").find("cutouts"), std::string::npos);
-  auto slot = with(hole, "branch/kind", Json{"rectangular_tube"});
+  auto slot = with(hole, "branch/kind", Json{"slot"});
   const auto other = post(kParts, with(body, "holes", Json{Json::Array{std::move(slot)}}));
   ASSERT_TRUE(other.outcome.error);
   EXPECT_EQ(text(other.body, "errors/0/pointer"), "/holes/0/branch/kind");

@@ -47,7 +47,7 @@ TEST(SectionPartRequests, EveryProblemIsAtItsField) {
   expect_refused(kParts, with(rail(), "target/size", "RHS 61x40x3"), "/target/size",
                  "unknown_size");
   expect_refused(kParts, with(rail(), "datum", "seam"), "/datum", "bad_choice");
-  expect_refused(kParts, with(rail(), "holes", parsed("[]")), "/holes", "unsupported_combination");
+  expect_refused(kParts, with(rail(), "holes", parsed("[{}]")), "/holes/0/branch", "missing_field");
   for (const char* limit : {"min_tongue_mm", "min_web_mm", "min_hole_to_end_mm"})
     expect_refused(kParts, with(rail(), "accept", with(parsed("{}"), limit, 3.0)),
                    std::string("/accept/") + limit, "unsupported_combination");
