@@ -272,6 +272,48 @@ TEST(SquareHoles, OfAPartTakeTheBarsOutlineOfBothWalls) {
   EXPECT_NEAR(number(answer.body, "result/lengths/long_mm"), 600.0, 1e-9);
 }
 
+/// Sizes and places in inches, the branches as members of a node: a stub set in, and a leg through.
+TEST(SquareHoles, OfAMemberInInchesAreThoseOfItsBranches) {
+  const auto body = parsed(R"({"preset": "tube_laser", "kerf_mm": 0.3, "connect": {"within_mm": 1},
+    "member": "chord", "holes": [{"member": "stub"}, {"member": "leg"}], "members": [
+    {"id": "chord", "start_mm": [0, 0, 0], "end_mm": [914.4, 0, 0], "kind": "rectangular_tube",
+     "height_mm": 76.2, "width_mm": 50.8, "wall_mm": 4.775, "corners": "astm_a500", "up": [0, 0, 1]},
+    {"id": "stub", "start_mm": [457.2, 0, 0], "end_mm": [457.2, 0, 304.8],
+     "outer_diameter_mm": 26.67, "wall_mm": 2.87,
+     "joints": [{"member": "chord", "kind": "set_in", "gap_mm": 0.4}]},
+    {"id": "leg", "start_mm": [254, 0, 300], "end_mm": [254, 0, -300], "kind": "rectangular_tube",
+     "height_mm": 19.05, "width_mm": 25.4, "wall_mm": 1.651, "corners": "astm_a500",
+     "up": [1, 0, 0], "joints": [{"member": "chord", "kind": "through", "gap_mm": 0.4}]}]})");
+  const auto answer = post(kParts, body);
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 1500);
+  const auto& groups = *at(answer.body, "result/cutouts").as<Json::Array>();
+  ASSERT_EQ(groups.size(), 3U);
+  const double bore = 0.25 * kPi * 27.47 * 27.47;
+  EXPECT_NEAR(number(groups[0], "area_outer_mm2"), bore, 1e-6);
+  EXPECT_NEAR(number(groups[0], "instances/0/z_mm"), 457.2, 1e-9);
+  for (const auto& group : groups) EXPECT_NEAR(number(group, "hole/greatest_gap_mm"), 0.4, 1e-9);
+  EXPECT_NE(number(groups[1], "instances/0/face"), number(groups[2], "instances/0/face"));
+}
+
+/// Branches without a name, or with that of a cut-out, have names of their own.
+TEST(SquareHoles, HaveNamesOfTheirOwn) {
+  auto body = rail_with(std::string(kBranch) + "," + kBranch + "," + kBranch);
+  for (int i = 0; i < 3; ++i) {
+    const auto branch = "holes/" + std::to_string(i) + "/branch";
+    body = with(body, branch + "/axis/point_mm", three({0, 0, 100.0 + 150.0 * i}, 1.0));
+    if (i > 0) body = without(body, branch + "/id");
+  }
+  body = with(body, "cutouts", parsed(R"([{"id": "bar", "shape": {"kind": "circle",
+    "diameter_mm": 9}, "at": {"z_mm": 550, "face": 1}}])"));
+  const auto answer = post(kParts, body);
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 1500);
+  std::map<std::string, int> names;
+  for (const auto& group : *at(answer.body, "result/cutouts").as<Json::Array>())
+    ++names[text(group, "id")];
+  EXPECT_EQ(names.size(), 7U);
+  EXPECT_EQ(names.count("bar.2.far"), 1U);
+}
+
 TEST(SquareHoles, EveryProblemIsAtItsField) {
   const auto body = rail_with(kBranch);
   const auto refused = [&](const std::string& field, const Json& value, const std::string& pointer,
