@@ -63,7 +63,7 @@ tl::unexpected<Error> along_tube() {
                .member = "axis",
                .hint = "the branch runs along the tube that it is to pass"});
 }
-tl::unexpected<Error> beside_tube() {
+tl::unexpected<Error> misses_tube() {
   return fail({.code = ErrorCode::open_profile,
                .member = "axis",
                .hint = "the branch's axis misses the tube"});
@@ -80,7 +80,7 @@ Result<Exit> exit_of(const section::Wall& wall, const joint::AxisLine& axis) {
     const double towards = n.dot(d.head<2>());
     const double off = outer.face_distance(face) - n.dot(axis.point.head<2>());
     if (std::abs(towards) <= kRounded) {
-      if (off < 0.0) return beside_tube();
+      if (off < 0.0) return misses_tube();
       continue;
     }
     if (towards < 0.0) {
@@ -91,7 +91,7 @@ Result<Exit> exit_of(const section::Wall& wall, const joint::AxisLine& axis) {
     }
   }
   if (out == 0) return along_tube();
-  if (!(enters < leaves)) return beside_tube();
+  if (!(enters < leaves)) return misses_tube();
   const auto n = section::Curve::face_normal(out);
   Exit exit{.at = {},
             .place = axis.point + leaves * d,
@@ -124,7 +124,7 @@ Result<Exit> exit_of(const joint::Target& tube, const joint::AxisLine& axis, Ang
   exit.stretch = tube.outer_radius / tube.inner_radius();
   exit.at = {.z = exit.place.z(),
              .phi = elementary::atan2(exit.normal.y(), exit.normal.x()) - zero.rad()};
-  if (!(std::abs(exit.shift.y()) < tube.outer_radius)) return beside_tube();
+  if (!(std::abs(exit.shift.y()) < tube.outer_radius)) return misses_tube();
   return exit;
 }
 
