@@ -35,6 +35,9 @@ export function envelope(cut: Cut, rho: number, phi: number): {z: number; by: nu
   return {z, by};
 }
 
+/** Whether the outside passes all partners somewhere. */
+export const isOpen = (cut: Cut) => Array.from({length: 720}, (_, i) => envelope(cut, cut.outer, (i * Math.PI) / 360).by).includes(-1);
+
 /** How much the highest partner lies above z at most; at a jump, where it is lost, on the lower side. */
 export function above(cut: Cut, rho: number, phi: number, z: number, jumps: number[]): number {
   const near = jumps.some((jump) => Math.abs(Math.sin((jump - phi) / 2)) < 1e-9);

@@ -48,19 +48,27 @@ export function mitrePlane(a: [V3, V3], b: [V3, V3]): [V3, V3] {
 }
 
 /** The member as a partner in the frame, by its joint with the target. */
-export function partnerBy(member: Body, target: [V3, V3], joint: Statement, grown: number, frame: Frame, know: Knowledge): Solid {
+/** What a request keeps a cut off every partner, mm. */
+interface Kept {
+  coating: number;
+  root: number;
+}
+const keptOff = ({coating_mm, root_gap_mm}: Body): Kept => ({coating: (coating_mm as number | undefined) ?? 0, root: (root_gap_mm as number | undefined) ?? 0});
+
+export function partnerBy(member: Body, target: [V3, V3], joint: Statement, kept: Kept, frame: Frame, know: Knowledge): Solid {
+  const away = kept.coating + Math.max(joint.gap_mm, kept.root); // stated both, they are equal
   const id = String(member.id);
   if (joint.kind === 'mitre') {
     const near = norm(sub(v3(member.start_mm), target[0])) <= norm(sub(v3(member.end_mm), target[0])) ? 'start' : 'finish';
     const [point, normal] = mitrePlane(target, endOf(member, near));
-    return plane(id, inFrame(frame, point), directionIn(frame, normal), joint.gap_mm / 2 + grown);
+    return plane(id, inFrame(frame, point), directionIn(frame, normal), kept.coating + Math.max(joint.gap_mm / 2, kept.root));
   }
   if (isSection(member)) {
     const section = sectionOf(member, know.sections);
-    return boxOf(member, section, joint.kind === 'set_in' ? -(joint.depth_mm ?? section.wall_mm) : joint.gap_mm + grown, frame);
+    return boxOf(member, section, joint.kind === 'set_in' ? -(joint.depth_mm ?? section.wall_mm) : away, frame);
   }
   const {outer_diameter_mm, wall_mm} = sizeOf(member, know.sizes);
-  const radius = outer_diameter_mm / 2 + (joint.kind === 'set_in' ? -(joint.depth_mm ?? wall_mm) : joint.gap_mm + grown);
+  const radius = outer_diameter_mm / 2 + (joint.kind === 'set_in' ? -(joint.depth_mm ?? wall_mm) : away);
   const [point, along] = axisOfMember(member);
   return tube(id, inFrame(frame, point), directionIn(frame, along), radius);
 }
@@ -89,10 +97,10 @@ export function cutOfNode(request: Body, ids: string[], know: Knowledge): Cut {
 
 export function cutInFrame(request: Body, members: Body[], target: Body, end: string, ids: string[], frame: Frame, know: Knowledge): Cut {
   const own = endOf(target, end);
-  const grown = ((request.coating_mm as number | undefined) ?? 0) + ((request.root_gap_mm as number | undefined) ?? 0);
+  const kept = keptOff(request);
   const solids = ids.map((id) => {
     const member = byId(members, id);
-    return partnerBy(member, own, stated(target, member) ?? found(own, member), grown, frame, know);
+    return partnerBy(member, own, stated(target, member) ?? found(own, member), kept, frame, know);
   });
   const {outer_diameter_mm, wall_mm} = sizeOf(target, know.sizes);
   return cutBy(request, outer_diameter_mm / 2, wall_mm, solids);
@@ -138,7 +146,7 @@ export function checkNodes(scope: Scope, request: Body, result: Body, know: Know
       ends.covers('cut_by/*/gap_mm', 'cut_by/*/joint/gap_mm');
       if (by.placement) checkPlacement(ends, by, axis, frame, own, where);
       else checkMitre(ends, by, other, own, frame, where);
-      return partnerBy(other, own, joint, 0, frame, know);
+      return partnerBy(other, own, joint, {coating: 0, root: 0}, frame, know);
     });
     if (isSection(target)) {
       ends.not('', 'members that are not round are looked at as partners only');
@@ -148,9 +156,9 @@ export function checkNodes(scope: Scope, request: Body, result: Body, know: Know
     for (const profile of made.profiles as Body[]) {
       checkProfile(ends.under('profiles/*'), cutBy(options, outer_diameter_mm / 2, wall_mm, partners), profile);
     }
-    const grown = ((options.coating_mm as number | undefined) ?? 0) + ((options.root_gap_mm as number | undefined) ?? 0);
+    const kept = keptOff(options);
     if (made.table) {
-      const solids = (made.cut_by as Body[]).map((by) => partnerBy(byId(members, by.member), own, by.joint as unknown as Statement, grown, frame, know));
+      const solids = (made.cut_by as Body[]).map((by) => partnerBy(byId(members, by.member), own, by.joint as unknown as Statement, kept, frame, know));
       checkEnd(ends.under('table'), cutBy(options, outer_diameter_mm / 2, wall_mm, solids), made.table as Body, know);
     }
   }

@@ -1,12 +1,12 @@
 /** Parts: both ends and the holes of a member in one frame, and what follows from them (docs/theory/parts.md). */
-import type {Columns, Cut} from './bevel.js';
-import {envelope} from './bevel.js';
+import {type Columns, type Cut, envelope, isOpen} from './bevel.js';
 import {checkHole, type Hole, holeOf, numbersOf} from './holes.js';
 import {axisOfMember, byId, cutInFrame, endOf, partnerBy, stated} from './nodes.js';
 import type {Scope} from './report.js';
 import {axisOf, type Body, type Size, sizeOf, solid} from './solids.js';
 import {across, add, cross, directionIn, dot, type Frame, inFrame, lineDistance, mul, norm, onTube, RAD, skew, sub, unit, type V3} from './space.js';
 import {checkEnd, cutBy, type Knowledge} from './tables.js';
+import {checkTexts} from './texts.js';
 
 type Numbers = {[name: string]: number};
 const v3 = (v: unknown) => v as V3;
@@ -83,7 +83,7 @@ function cutOfEnd(request: Body, made: Body, side: Side, frame: Frame, know: Kno
     const into = ((made.cutter_ids ?? []) as string[]).flatMap((id, i) => (stated(target, byId(members, id))?.kind === 'set_in' ? [i] : []));
     const ids = (made.cutter_ids ?? []) as string[];
     const bare = ids.map((id) =>
-      partnerBy(byId(members, id), endOf(target, side), {kind: 'set_on', gap_mm: 0}, 0, side === 'start' ? frame : turned(frame), know),
+      partnerBy(byId(members, id), endOf(target, side), {kind: 'set_on', gap_mm: 0}, {coating: 0, root: 0}, side === 'start' ? frame : turned(frame), know),
     );
     return {...cut, metal: bare.map((body, i) => (cut.partners[i]?.rate === undefined ? cut.partners[i] : body)), setIn: new Set(into)};
   }
@@ -184,6 +184,7 @@ function checkSides(scope: Scope, cut: Cut, made: Body, side: Side, R: number): 
     for (const value of points.dihedral_deg ?? []) scope.same('square_end', value, 90, 1e-12, 'deg');
     return;
   }
+  if (isOpen(cut)) return; // its groove has no other side there
   const own = welded ? grooveVolume(cut, side === 'start' ? made : mirrored(made)) : 0;
   scope.same('groove_volume', made.groove_mm3 as number, own, 5e-3 * Math.abs(own) + 2e-3 * (made.length_mm as number) * (cut.outer - cut.inner), 'mm3');
   scope.covers('groove_mm3');
@@ -332,7 +333,7 @@ function checkFigures(
     scope.covers('lengths/mass_kg', ...(alone ? ['lengths/volume_mm3'] : []));
   }
   for (const dimension of list(result.check_dimensions)) {
-    const value = dimensionOf(String(dimension.name), s, e, ends, R, r, tip, throat);
+    const value = dimensionOf(String(dimension.name), s, e, ends, R, r, tip, throat, dimension.value_mm as number);
     if (value === undefined) scope.not('check_dimensions', `${dimension.name} is unknown`);
     else scope.same('check_dimensions', dimension.value_mm as number, value, 3 * fine, 'mm', String(dimension.name));
   }
@@ -402,14 +403,13 @@ function dimensionOf(
   r: number,
   tip: number,
   throat: number,
+  given: number,
 ): number | undefined {
   const outside = (deg: number) => at(e, 'z_outer_mm', deg) - at(s, 'z_outer_mm', deg);
   const quarter = /^length_at_(\d+)$/.exec(name);
   if (quarter) return outside(Number(quarter[1]));
-  if (name === 'girth') return 2 * Math.PI * R;
-  if (name === 'wall') return R - r;
-  if (name === 'tip_to_tip') return tip;
-  if (name === 'throat_to_throat') return throat;
+  const whole: {[name: string]: number} = {girth: 2 * Math.PI * R, wall: R - r, tip_to_tip: tip, throat_to_throat: throat};
+  if (name in whole) return whole[name];
   const [, side, what] = /^(start|finish)_(long_girth|crown_chord|overhang)$/.exec(name) ?? [];
   if (side) {
     const end = ends[side as Side];
@@ -419,7 +419,8 @@ function dimensionOf(
     if (what === 'crown_chord') return norm(sub(place(long), place(short)));
     const points = side === 'start' ? s : e;
     const over = points.z_outer_mm.map((z, i) => (z - points.z_inner_mm[i]) * (side === 'start' ? 1 : -1));
-    return over.reduce((best, next) => (Math.abs(next) > Math.abs(best) + 1e-12 ? next : best), 0);
+    const [most, least] = [Math.max(0, ...over), Math.min(0, ...over)];
+    return (Math.abs(most + least) < 1e-9 ? given < 0 : -least > most) ? least : most; // alike on both sides: either is the widest
   }
   const [, other, which] = /^length_at_(start|finish)_(long|short)$/.exec(name) ?? [];
   if (other) return outside((ends[other as Side][`${which}_point`] as Numbers).phi_deg);
@@ -449,7 +450,8 @@ function checkMarks(scope: Scope, request: Body, result: Body, ends: {[side in S
   const marks = list(result.marks) as unknown as (Numbers & {kind: string; text: string})[];
   const [s, e] = [ends.start.points, ends.finish.points] as unknown as [{[name: string]: number[]}, {[name: string]: number[]}];
   const [from, to] = [at(s, 'z_outer_mm', 0), at(e, 'z_outer_mm', 0)];
-  for (const mark of marks) {
+  checkTexts(scope, request, result);
+  for (const mark of marks.filter(({kind}) => kind !== 'text')) {
     const phi = mark.phi_deg;
     scope.same('mark_girth', mark.girth_mm, R * phi * RAD, 1e-10 * (1 + R), 'mm', mark.text);
     const middle = (from + to) / 2;
@@ -482,9 +484,8 @@ function checkMarks(scope: Scope, request: Body, result: Body, ends: {[side in S
   for (const step of list(result.sequence) as unknown as (Numbers & {what: string})[]) {
     const torch = (points: {[name: string]: number[]}, names: string[]) => names.flatMap((name) => points[name]);
     if (step.what === 'cutout') continue;
-    const index = step.index;
-    const mark = marks[index];
-    const hole = list(result.holes)[index];
+    const mark = marks[step.index];
+    const hole = list(result.holes)[step.index];
     const z =
       step.what === 'mark'
         ? [mark?.z_from_mm, mark?.z_to_mm]

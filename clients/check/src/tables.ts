@@ -65,7 +65,7 @@ export function checkEnd(scope: Scope, cut: Cut, result: Body, know: Knowledge):
   const limits = cut.smoothing.limits as Body | undefined;
   checkSmoothing(scope, cut, columns, result, machineOf(limits?.machine, know));
   checkMutations(scope, cut, columns, result);
-  checkBinds(scope, columns, result.torch_binds as Body[]);
+  checkBinds(scope, cut, columns, result.torch_binds as Body[]);
   const rows = rowsOf(cut, columns);
   checkPenetration(scope, cut, rows, result.penetration as unknown as Penetration);
   checkTorchLine(scope, cut, rows, result.torch_line as unknown as TorchLine);

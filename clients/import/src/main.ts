@@ -38,6 +38,7 @@ Items that are not in it, and assumptions, go to the standard error, one per lin
   --wall-attribute A   PCF: the attribute that states a wall (WALL-THICKNESS)
   --unit UNIT          CSV, DXF: mm, cm, m, in or ft, of lengths that state no unit; default: mm for CSV, the drawing's unit for DXF
   --column FIELD=NAME  CSV: the column of a field (${fields.join(', ')})
+  --no-headings        CSV: no row has headings; --column then names columns by their numbers from 1
   --nodes FILE         CSV: the table of nodes, if it is not in the same file (columns node, x, y, z)
   --decimal MARK       CSV: comma or point, if the numbers leave it open
   --size SIZE          CSV: of rows without their own, "114.3x6.3" (mm), "NPS 4 SCH 40" or "RHS 60x40x3 EN 10219"
@@ -103,6 +104,7 @@ function asked() {
       'wall-attribute': text,
       unit: text,
       column: list,
+      'no-headings': {type: 'boolean'} as const,
       size: text,
       layer: list,
     };
@@ -121,6 +123,16 @@ function boresOf(given: string[] | undefined): {bores?: Record<string, string>} 
     throw new Usage(`--bore: ${(failure as Error).message}`);
   }
   return {bores};
+}
+
+function columnsOf(given: string[] | undefined, numbered: boolean): {columns: Record<string, string | number>; headings?: false} {
+  const said = pairs(given, 'column');
+  for (const [field, column] of said) {
+    if (!(fields as readonly string[]).includes(field)) throw new Usage(`--column knows no field ${field}`);
+    if (numbered && !/^[1-9]\d{0,3}$/.test(column)) throw new Usage(`--column ${field}=${column}: with --no-headings it takes the number of a column, from 1`);
+  }
+  if (!numbered) return {columns: Object.fromEntries(said)};
+  return {columns: Object.fromEntries(said.map(([field, column]) => [field, Number(column) - 1])), headings: false};
 }
 
 function decimalOf(text: string | undefined): {decimal?: '.' | ','} {
@@ -166,13 +178,12 @@ async function imported(): Promise<Imported | ImportedPart> {
     ...(values['merge-in-line'] ? {merge_in_line: true} : {}),
     ...(values.fields === undefined ? {} : {fields: objectOf(values.fields)}),
   };
-  const columns = Object.fromEntries(pairs(values.column, 'column'));
-  for (const field of Object.keys(columns)) if (!(fields as readonly string[]).includes(field)) throw new Usage(`--column knows no field ${field}`);
+  const tableColumns = columnsOf(values.column, values['no-headings'] === true);
   const layers = Object.fromEntries(pairs(values.layer, 'layer').map(([layer, size]) => [layer, sizeOf(size)]));
   const unit = unitOf(values.unit);
   const {schedule, 'wall-attribute': wallAttribute, size, nodes} = values;
   const [bores, mark] = [boresOf(values.bore), decimalOf(values.decimal)];
-  const ofTables = {...unit, ...mark, ...corner, columns, ...(size ? {size: sizeOf(size)} : {})};
+  const ofTables = {...unit, ...mark, ...corner, ...tableColumns, ...(size ? {size: sizeOf(size)} : {})};
   const csv = (bytes: Buffer) => fromCsv(bytes.toString(), {...common, ...ofTables, ...(nodes === undefined ? {} : {nodes: readFileSync(nodes, 'utf8')})});
   const nc1 = (bytes: Buffer) => fromNc1(bytes, {...corner, ...(common.fields ? {fields: common.fields} : {})});
   const readers: Record<string, (bytes: Buffer) => Imported | ImportedPart | Promise<Imported>> = {

@@ -102,3 +102,30 @@ test('the same by the blocks alone: ends that are square or flush, circles, outl
   of.diagnostic(JSON.stringify(seen));
   assert.ok(Object.values(seen).every((count) => count > 0), JSON.stringify(seen));
 });
+
+test('texts come back whole, and a text that a hand changed is listed', async () => {
+  const ends = {start: {square_at_mm: 0}, finish: {square_at_mm: 0}};
+  const own = (at, more) => ({id: 'Ü 1, id 2', at, text: ' a "b" 5; id x', height_mm: 8, ...more});
+  for (const [told, target, texts] of [
+    ['round', {outer_diameter_mm: 88.9, wall_mm: 5, length_mm: 600}, [own({z_mm: 60, phi_deg: 300}, {angle_deg: 30}), {...own({z_mm: 200, from: 'finish', girth_mm: 12}, {mirrored: true}), id: 'b'}]],
+    ['square', {kind: 'rectangular_tube', height_mm: 80, width_mm: 60, wall_mm: 4, corner_radius_mm: 8, length_mm: 600}, [own({z_mm: 60, face: 3, offset_mm: 2}), {...own({z_mm: 300, face: 4}, {angle_deg: 60, over_corner: true}), id: 'b'}]],
+  ]) {
+    const body = {target, ends, texts, kerf_mm: 1};
+    const file = await posted(body, '?format=nc1');
+    const {part, notUnderstood} = fromNc1(file);
+    assert.deepEqual(notUnderstood, [], told);
+    assert.deepEqual(part.texts.map(({id, text}) => [id, text]), texts.map(({id, text}) => [id.replace('Ü', 'Ue'), text]), told);
+    const lettering = ({marks}) => marks.flatMap((mark) => (mark.lettering ? [mark.lettering] : []));
+    const [asked, read] = [lettering(await answerOf(body)), lettering(await answerOf(part))];
+    assert.equal(read.length, asked.length, told);
+    asked.forEach((one, k) =>
+      one.strokes.forEach((stroke, i) => {
+        for (const column of ['z_mm', 'girth_mm']) stroke[column].forEach((v, n) => close(v, read[k].strokes[i][column][n], 1e-6, `${told} ${column}`));
+      }),
+    );
+    const changed = fromNc1(file.replace(/(SI\r\n {2}[vouh] +)60\.000/, '$170.000'));
+    assert.deepEqual(changed.notUnderstood.map(({reason}) => reason.slice(0, 60)), ['its comment states another text than the block: the block is', 'assumed: "a "b" 5; id x" is a mark at this place, because it'], told);
+    assert.equal(changed.part.texts.length, 1, told);
+    assert.equal(changed.part.marks[0].z_mm, 70, told);
+  }
+});

@@ -95,26 +95,29 @@ export function plain(heading: string): Heading {
 /** Columns in which a heading is looked for. */
 const widest = 1000;
 
-function match<F extends string>(row: string[], known: Record<F, string[]>): Partial<Record<F, string>> {
+/** Where the column of each field is in a row, from 0. */
+export type Places<F extends string> = Partial<Record<F, number>>;
+
+function match<F extends string>(row: string[], known: Record<F, string[]>): Places<F> {
   const words = row.slice(0, widest).map(plain);
   const taken = new Set<number>();
-  const out: Partial<Record<F, string>> = {};
+  const out: Places<F> = {};
   for (const field of Object.keys(known) as F[])
     for (const name of known[field]) {
       const at = words.findIndex((each, i) => each.plain === name && !taken.has(i));
       if (at < 0) continue;
       taken.add(at);
-      out[field] = row[at] as string;
+      out[field] = at;
       break;
     }
   return out;
 }
 
 /** Coordinates are matched before nodes, so that only "start" and "end" are nodes. */
-export const membersIn = (row: string[]): Partial<Record<Field, string>> => match(row, headings);
-export const nodesIn = (row: string[]): Partial<Record<NodeField, string>> => match(row, nodeHeadings);
+export const membersIn = (row: string[]): Places<Field> => match(row, headings);
+export const nodesIn = (row: string[]): Places<NodeField> => match(row, nodeHeadings);
 
-const has = (columns: Partial<Record<string, string>>, ...names: string[]): boolean => names.every((name) => columns[name] !== undefined);
+const has = (columns: Places<string>, ...names: string[]): boolean => names.every((name) => columns[name] !== undefined);
 /** Rows of numbers are not headings; because they are most rows, this is checked first. */
 const wordy = (row: string[]): boolean => row.length > 1 && row.slice(0, widest).filter((cell) => /^[^\d.,+-]/.test(cell)).length > 1;
 export const isMembers = (row: string[]): boolean => {

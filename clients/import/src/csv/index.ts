@@ -2,17 +2,22 @@ import {clean, exact, type Found, type FrameOptions, frameOf, full, type Importe
 import {cross, distance, length, minus, unit, type Vector} from '../geometry.js';
 import {type CornerOptions, cornersToState, standards, usually, usualUp} from '../sections.js';
 import {decimal, type LengthUnit} from '../units.js';
-import {examples, type Field} from './columns.js';
+import {examples, type Field, type Places} from './columns.js';
 import {Nodes} from './nodes.js';
 import {type Mark, markOf, numberSaid, Trouble} from './numbers.js';
 import {Cornerless, lengthFields, lengthIn, Missing, numberFields, type Reading, sizeIn, sizesMissing, upFields} from './sizes.js';
-import {cellsOf, membersTable, nodeTables, type Row, rowsOf, type Table, unitIn} from './tables.js';
+import {cellsOf, type Columns, membersTable, nodeTables, type Row, rowsOf, type Table, unitIn} from './tables.js';
 
 export {type Field, fields} from './columns.js';
 
 export interface CsvMapping extends FrameOptions, CornerOptions {
-  /** Which column, by its heading, states a field. Without an entry it is found by the usual headings. */
-  columns?: Partial<Record<Field, string>>;
+  /**
+   * Which column states a field: by its heading, or by its index from 0; null if none does. Without
+   * an entry it is found by the usual headings.
+   */
+  columns?: Columns;
+  /** Whether a row has headings; by default, if one is known or has more words than numbers. */
+  headings?: boolean;
   /** Of lengths whose column states no unit; default mm. */
   unit?: LengthUnit;
   /** Of all rows, where no column states it. */
@@ -26,11 +31,27 @@ export interface CsvMapping extends FrameOptions, CornerOptions {
   decimal?: Mark;
 }
 
-/** Returns the columns as read without a mapping: the start for a mapper. */
-export function columnsOf(text: string): {headings: string[]; columns: Partial<Record<Field, string>>; nodes: boolean} {
-  const rows = rowsOf(text);
-  const {headings, columns} = membersTable(rows);
-  return {headings, columns, nodes: nodeTables(rows).length > 0};
+export interface ColumnsFound {
+  /** Of the columns; empty if no row has them. */
+  headings: string[];
+  /** By heading. */
+  columns: Partial<Record<Field, string>>;
+  /** By index from 0. */
+  places: Places<Field>;
+  /** The first rows below the headings. */
+  rows: string[][];
+  /** Is there a table of nodes? */
+  nodes: boolean;
+}
+
+/** Returns the columns as read without a mapping, and the first rows: the start for a mapper. */
+export function columnsOf(text: string, mapping: Pick<CsvMapping, 'headings'> = {}, most = 20): ColumnsFound {
+  const all = rowsOf(text);
+  const {headings, columns: places, top, headed} = membersTable(all, {}, mapping.headings);
+  const columns = Object.fromEntries(Object.entries(places).map(([field, at]) => [field, headings[at] as string]));
+  const from = Math.max(top, 0) + (headed ? 1 : 0);
+  const rows = all.slice(from, from + most).map(({cells}) => cells);
+  return {headings, columns, places, rows, nodes: nodeTables(all).length > 0};
 }
 
 const axes = ['x', 'y', 'z'] as const;
@@ -175,11 +196,13 @@ function tooThin({members, asks}: Found, mapping: CsvMapping, table: Table<Field
 export function fromCsv(text: string, mapping: CsvMapping = {}): Imported {
   const found = nothing();
   const rows = rowsOf(text, found.notUnderstood);
-  const table = membersTable(rows, mapping.columns);
+  const table = membersTable(rows, mapping.columns, mapping.headings);
   const nodes = new Nodes([...nodeTables(rows), ...(mapping.nodes === undefined ? [] : nodeTables(rowsOf(mapping.nodes, found.notUnderstood)))]);
-  const lost = Object.entries(table.columns).filter(([, heading]) => !table.headings.includes(heading.trim()));
-  for (const [field, heading] of lost) found.notUnderstood.push({id: 'file', type: 'CSV', reason: `there is no column "${heading}" for ${field}`});
-  if (lost.length > 0) return frameOf(found, mapping, 'CSV');
+  for (const [field, column] of table.lost) {
+    const said = typeof column === 'number' ? `of index ${column}` : `"${column}"`;
+    found.notUnderstood.push({id: 'file', type: 'CSV', reason: `there is no column ${said} for ${field}`});
+  }
+  if (table.lost.length > 0) return frameOf(found, mapping, 'CSV');
   const cells = cellsOf(table);
   const counted = numberFields({table, cells, nodes, mapping});
   const numbers = [

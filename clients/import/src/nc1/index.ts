@@ -222,6 +222,7 @@ function read(file: Nc1, stated: Stated, tube: Tube, tell: (id: string, type: st
     cutouts: [],
     from: [],
     marks: [],
+    texts: [],
     over: 0,
     slots: {line: 0, count: 0, turned: false},
   };
@@ -246,6 +247,7 @@ function read(file: Nc1, stated: Stated, tube: Tube, tell: (id: string, type: st
     target: {...(id === undefined ? {} : {id}), ...tube.target, length_mm: exact(to - from)},
     ends: {start: start.request(from, kerf_mm), finish: finish.request(to, kerf_mm)},
     ...(into.cutouts.length > 0 ? {cutouts: into.cutouts} : {}),
+    ...(into.texts.length > 0 ? {texts: into.texts} : {}),
     ...(into.marks.length > 0 ? {marks: into.marks} : {}),
     kerf_mm,
     ...(density === undefined ? {} : {density_kg_m3: density}),

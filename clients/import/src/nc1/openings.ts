@@ -1,8 +1,8 @@
 import {clean, type names} from '../frame.js';
 import {limits} from '../limits.js';
 import {acrossOf, faces, type Frame} from './outlines.js';
-import type {Cutout, CutoutShape, Mark, Piece, Point, Round} from './part.js';
-import {type StatedShape, statedShape, titleOf} from './stated.js';
+import type {Cutout, CutoutShape, Mark, Piece, Point, Round, TextMark} from './part.js';
+import {type StatedShape, statedShape, statedText, titleOf} from './stated.js';
 import {type Block, type Face, type Row, Trouble} from './text.js';
 
 /** Adds to the list of items that are not read, or are read by an assumption. */
@@ -19,6 +19,7 @@ export interface Openings {
   /** Line and block of each cut-out. */
   from: {id: string; line: number; type: string}[];
   marks: Mark[];
+  texts: TextMark[];
   /** Number of cut-outs that a part has no place for. */
   over: number;
   slots: {line: number; count: number; turned: boolean};
@@ -248,8 +249,27 @@ export function openings(to: Openings, block: Block): void {
   });
 }
 
-/** A text becomes a mark: the request has no fields for its height and its angle. */
+/** A text of ours, by its comment and its row: true if they state all of it. */
+function ownText(to: Openings, block: Block): boolean {
+  const found = to.ours ? statedText(block.comments) : undefined;
+  const [row] = block.rows;
+  if (!found || !row || row.text.trim() === '') return false;
+  const {id, x, girth, angle, height, mirrored, overCorner} = found;
+  const written = row.values[3]?.value ?? Number.NaN;
+  const off = Math.max(Math.abs((row.values[0]?.value ?? Number.NaN) - x), Math.abs(written - height));
+  if (!(off <= same)) {
+    to.tell(block.line, 'SI', 'its comment states another text than the block: the block is read');
+    return false;
+  }
+  const more = {...(mirrored ? {mirrored} : {}), ...(overCorner ? {over_corner: true} : {})};
+  const turned = angle === 0 ? {} : {angle_deg: angle};
+  to.texts.push({id: clean(id), at: {z_mm: tidy(x - to.start), girth_mm: girth}, text: row.text, height_mm: height, ...turned, ...more});
+  return true;
+}
+
+/** A text of another program becomes a mark: where its base line begins and how it turns is not known. */
 export function texts(to: Openings, block: Block): void {
+  if (ownText(to, block)) return;
   let face: Face | undefined;
   for (const row of block.rows) {
     face = row.face ?? face;
@@ -264,7 +284,7 @@ export function texts(to: Openings, block: Block): void {
     if (frame.round)
       to.marks.push({text, z_mm: at.z_mm, phi_deg: 'girth_mm' in at ? tidy((at.girth_mm / frame.girth) * 360) : 'phi_deg' in at ? at.phi_deg : 0});
     else if ('face' in at) to.marks.push({text, z_mm: at.z_mm, girth_mm: alongGirth(frame, at.face, at.offset_mm)});
-    to.tell(row.line, 'SI', `assumed: "${text}" is a mark at this place, because a request has no field for its height and its angle`);
+    to.tell(row.line, 'SI', `assumed: "${text}" is a mark at this place, because it is not known where its letters begin and how they turn`);
   }
 }
 

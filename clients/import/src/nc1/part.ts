@@ -35,11 +35,23 @@ export type PartEnd = {square_at_mm: number; kerf_mm?: number} | PlaneEnd;
 
 export type Mark = {text: string; z_mm: number} & ({phi_deg: number} | {girth_mm: number});
 
+/** A text that a tool draws, as the contract has it. */
+export interface TextMark {
+  id: string;
+  at: {z_mm: number} & Round;
+  text: string;
+  height_mm: number;
+  angle_deg?: number;
+  mirrored?: boolean;
+  over_corner?: boolean;
+}
+
 /** A request of POST /v1/parts. */
 export interface Part {
   target: (Size | Section) & {id?: string; length_mm: number};
   ends: {start: PartEnd; finish: PartEnd};
   cutouts?: Cutout[];
+  texts?: TextMark[];
   marks?: Mark[];
   kerf_mm: number;
   density_kg_m3?: number;

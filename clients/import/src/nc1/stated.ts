@@ -154,6 +154,26 @@ export function statedShape(comments: string[]): StatedShape | undefined {
   return shape && isWhole(shape) && Number.isFinite(x) && Number.isFinite(y) ? {shape, wall, tilt, x, y} : undefined;
 }
 
+/** A text as its comment states it. */
+export interface StatedText {
+  id: string;
+  x: number;
+  girth: number;
+  angle: number;
+  height: number;
+  mirrored: boolean;
+  overCorner: boolean;
+}
+/** The text that the comments before a block state; undefined if they do not state all of it. */
+export function statedText(comments: string[]): StatedText | undefined {
+  const line = comments.map((each) => /^text: (.*?); id (.*)$/.exec(each)).find(Boolean);
+  if (!line) return undefined;
+  const found = valuesOf(line[1] as string, ['at x', 'girth', 'angle', 'height', 'mirrored', 'over corner']);
+  const [x, girth, angle, height] = ['at x', 'girth', 'angle', 'height'].map((name) => decimal(found.get(name))) as [number, number, number, number];
+  const out = {id: line[2] as string, x, girth, angle, height, mirrored: found.has('mirrored'), overCorner: found.has('over corner')};
+  return isWhole(out) ? out : undefined;
+}
+
 export interface Title {
   name: string;
   far: boolean;

@@ -91,9 +91,9 @@ function rowOf(text: string, line: number): Row {
 
 /** A text to be marked: face, x, y, angle, height, text. */
 function markOf(text: string, line: number): Row {
-  const found = /^\s*[vouhVOUH]?[\s,]*[-+.\d]+[a-z]?[\s,]+[-+.\d]+[a-z]?[\s,]+[-+.\d]+[a-z]?[\s,]+\d+(?:\.\d*)?[a-z]?\s*/.exec(text.slice(0, longest));
+  const found = /^\s*[vouhVOUH]?[\s,]*[-+.\d]+[a-z]?[\s,]+[-+.\d]+[a-z]?[\s,]+[-+.\d]+[a-z]?[\s,]+\d+(?:\.\d*)?[a-z]?(?:\s|$)/.exec(text.slice(0, longest));
   if (!found) throw new Trouble(`"${clean(text.trim().slice(0, 60))}" is not face, x, y, angle, height and text`);
-  return {...rowOf(found[0], line), text: text.slice(found[0].length).trim()};
+  return {...rowOf(found[0], line), text: text.slice(found[0].length)};
 }
 
 /** Reads the lines of a file into its header and blocks. Rows that it cannot read go to `lost`. */
