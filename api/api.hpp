@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,7 +31,6 @@ struct Call {
 
 /// The context of a call, in addition to its text.
 struct Context {
-  std::stop_token stop;
   std::function<double()> clock;       // monotonic seconds, for stage times; may be empty
   double received = 0.0;               // when the request's first byte came, on that clock; 0: now
   int (*status)(ErrorKind) = nullptr;  // the number printed in a problem's `status`

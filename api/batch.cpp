@@ -69,7 +69,7 @@ std::string read_body(Reader& in) {
     in.issue({.code = ErrorCode::missing_field, .pointer = "body"});
     return {};
   }
-  return dump(*body, in.stop());
+  return dump(*body);
 }
 
 /// Returns a number as printed, a text unchanged, true and false; nothing for other types.
@@ -130,10 +130,9 @@ std::string base64(std::string_view bytes) {
 void read_line(BatchLine& out, std::string_view text, std::string_view request_id,
                const Context& context) {
   // One deeper than a body may be.
-  const auto json = parse(
-      text, {.depth = static_cast<std::size_t>(limit::nesting_max) + 1, .stop = context.stop});
+  const auto json = parse(text, {.depth = static_cast<std::size_t>(limit::nesting_max) + 1});
   if (!json) {
-    if (auto issue = number_issue(text, context.stop)) {
+    if (auto issue = number_issue(text)) {
       refuse(out, field_problem({*std::move(issue)}), request_id, context);
       return;
     }
@@ -145,7 +144,6 @@ void read_line(BatchLine& out, std::string_view text, std::string_view request_i
     return;
   }
   Reader in(*json);
-  in.set_stop(context.stop);
   out.id = read_id(in);
   out.path = read_endpoint(in);
   out.query = read_query(in);

@@ -12,6 +12,7 @@
 #include "api/wire/format_choice.hpp"
 #include "api/wire/json_number.hpp"
 #include "api/wire/query.hpp"
+#include "core/base/stop.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -29,6 +30,7 @@ class CallRun {
   }
 
   Outcome refuse(const Problem& problem, std::string allow = {}) {
+    const StopScope written(std::stop_token{});  // because a cancelled job is answered too
     const auto kind = info(problem.code).kind;
     out_.error = kind;
     out_.content_type = kProblemMedia;
@@ -103,17 +105,14 @@ Outcome CallRun::work(const Endpoint& endpoint) {
   if (call_.body.size() > endpoint.max_body)
     return refuse(ErrorCode::body_too_large,
                   "the limit is " + std::to_string(endpoint.max_body) + " bytes");
-  auto body = parse(call_.body,
-                    {.depth = static_cast<std::size_t>(limit::nesting_max), .stop = context_.stop});
+  auto body = parse(call_.body, {.depth = static_cast<std::size_t>(limit::nesting_max)});
   lap("parse");
   if (!body)
-    if (auto issue = number_issue(call_.body, context_.stop))
-      return refuse(field_problem({*std::move(issue)}));
+    if (auto issue = number_issue(call_.body)) return refuse(field_problem({*std::move(issue)}));
   if (!body)
     return refuse(ErrorCode::unreadable_json,
                   body.error().reason + " at byte " + std::to_string(body.error().offset));
   Reader in(*body);
-  in.set_stop(context_.stop);
   in.set_binary(choice->encoding == Encoding::cbor);
   const auto common = read_common_fields(in, endpoint.accepts);
   out_.job.reference = common.reference;  // a refused job is looked for by its order too
@@ -128,7 +127,6 @@ Outcome CallRun::work(const Endpoint& endpoint) {
                     .unit = {},
                     .hint = {}}}});
   Run run{
-      .stop = context_.stop,
       .encoding = choice->encoding,
       .format = choice->format,
       .caption = {.reference = common.reference,
@@ -167,7 +165,6 @@ void write_events(Writer& w, const Context& context, double begun,
 
 Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, Answer answer,
                         const FormatChoice& choice, const Query& query) {
-  const auto& stop = context_.stop;
   auto& job = out_.job;
   job.input_sha256 = answer.input_sha256;
   job.id = call_.job_id.empty() ? own_job_id(answer) : call_.job_id;
@@ -192,7 +189,7 @@ Outcome CallRun::answer(const Endpoint& endpoint, const CommonFields& common, An
   if (!common.reference.empty()) members.emplace_back("reference", common.reference_echo);
   if (common.inline_log) members.emplace_back("log", Json{"inline"});
   const bool cbor = choice.encoding == Encoding::cbor;
-  Writer out(answer.result.size() + call_.body.size() + 4096, stop, choice.encoding);
+  Writer out(answer.result.size() + call_.body.size() + 4096, choice.encoding);
   out.object([&](Writer& w) {
     write_head(w, endpoint.id, job.id, answer, echo);
     if (!query.validate_only) {

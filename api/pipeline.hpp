@@ -61,18 +61,18 @@ tl::expected<std::string, Problem> print_document(const typename E::Spec& spec,
 ///   using Spec, Out;
 ///   static Spec decode(Reader&);
 ///     types, units, ranges
-///   static Result<Spec> resolve(Spec, const std::stop_token&);
+///   static Result<Spec> resolve(Spec);
 ///     optional: checks of the input that only core can make
-///   static Result<Out> compute(const Spec&, const std::stop_token&);  pure core call
+///   static Result<Out> compute(const Spec&);  pure core call
 ///   static std::vector<Check> verify(const Spec&, const Out&);
-///     the verification; if it may take long, with a stop token
+///     the verification
 ///     if a job has many pieces, compute, verify and encode take `const Turns&` last
 ///   static std::vector<Warning> warnings(const Spec&, const Out&);
 ///   static std::vector<Measure> measure(const Spec&, const Out&);
 ///   static void encode(const Spec&, const Out&, Writer&);  members of `result`
 ///   static void encode_beside(const Spec&, const Out&, Writer&);
 ///     optional: members next to `result`, not covered by its hash
-///   static std::string lines(const Spec&, const std::stop_token&);
+///   static std::string lines(const Spec&);
 ///     optional: the remaining requests, as lines of a batch
 ///   static const std::vector<Format<Spec, Out>>& formats();
 ///   kId, kPath, kMaxBody, kBudgetS, kAccepts, kChecks
@@ -82,14 +82,13 @@ Reply run(Reader& in, Run& run) {
   if (!made) return std::move(made).error();
   auto& answer = made->answer;
   if (run.format == nullptr) {
-    Writer writer(1 << 16, run.stop, run.encoding);
+    Writer writer(1 << 16, run.encoding);
     made->encode(writer, run.turns);
     if (run.encoding == Encoding::json) answer.result_sha256 = writer.sha256();
     answer.result = writer.take();
   }
-  if (answer.result_sha256.empty()) answer.result_sha256 = made->hashed(run.stop, run.turns);
+  if (answer.result_sha256.empty()) answer.result_sha256 = made->hashed(run.turns);
   if (run.format != nullptr) {
-    run.caption.stop = run.stop;
     auto text =
         print_document<E>(made->spec, made->out, *run.format, std::move(run.caption), answer);
     if (!text) return std::move(text).error();
@@ -97,8 +96,7 @@ Reply run(Reader& in, Run& run) {
   }
   run.stage("encode");
   auto reply = std::move(answer);
-  if constexpr (requires { E::lines(made->spec, run.stop); })
-    reply.lines = E::lines(made->spec, run.stop);
+  if constexpr (requires { E::lines(made->spec); }) reply.lines = E::lines(made->spec);
   if constexpr (requires(Writer & w) { E::encode_beside(made->spec, made->out, w); })
     reply.beside = [kept = std::make_shared<const Worked<E>>(*std::move(made))](Writer& w) {
       E::encode_beside(kept->spec, kept->out, w);

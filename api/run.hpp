@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -33,7 +32,6 @@ using Reply = std::variant<Answer, Problem>;
 
 /// The context of the pipeline.
 struct Run {
-  std::stop_token stop = {};
   Encoding encoding = Encoding::json;
   const FormatName* format = nullptr;  // instead, unless nullptr
   Caption caption = {};

@@ -179,8 +179,6 @@ bool holds_more(const Json& json) {
 
 class Walk {
  public:
-  explicit Walk(const std::stop_token& stop) : pace_(stop) {}
-
   void request(const Json& json) {
     object(json, {}, false);
     if (found.empty() && lengths_.suspected())
@@ -208,7 +206,7 @@ class Walk {
     }
     const auto* members = json.as<Json::Object>();
     if (members == nullptr) return;
-    ask(pace_.stop());
+    ask();
     tube(json, path);
     for (const auto& [name, value] : *members) {
       const auto* of = value.as<double>();
@@ -252,8 +250,8 @@ class Walk {
 
 }  // namespace
 
-std::vector<Warning> unit_suspicions(const Json& request, const std::stop_token& stop) {
-  Walk walk(stop);
+std::vector<Warning> unit_suspicions(const Json& request) {
+  Walk walk;
   walk.request(request);
   return std::move(walk.found);
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +14,7 @@ namespace tubecut::api {
 /// mm, a round angle in radians (57.3), a length or a member's ends in metres (1000), a metric
 /// design wholly in inches (11.811, 0.63, 9.449). Each names the field and the probable meaning.
 /// Offsets may be of any size and are not suspected.
-[[nodiscard]] std::vector<Warning> unit_suspicions(const Json& request,
-                                                   const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Warning> unit_suspicions(const Json& request);
 
 /// Returns the meaning of an out-of-range value in another unit, if that is within [min, max]: mm
 /// in metres, inches or micrometres (the one that makes it a catalogue size, else each), deg in

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,8 +30,8 @@ struct Worked {
         E::encode(spec, out, w);
     });
   }
-  [[nodiscard]] std::string hashed(const std::stop_token& stop, const Turns& turns) const {
-    auto writer = Writer::hashing(stop);
+  [[nodiscard]] std::string hashed(const Turns& turns) const {
+    auto writer = Writer::hashing();
     encode(writer, turns);
     return writer.sha256();
   }
@@ -40,28 +39,23 @@ struct Worked {
 
 template <class E>
 Result<typename E::Out> computed(const typename E::Spec& spec, const Run& run) {
-  if constexpr (requires { E::compute(spec, run.stop, run.turns); })
-    return E::compute(spec, run.stop, run.turns);
+  if constexpr (requires { E::compute(spec, run.turns); })
+    return E::compute(spec, run.turns);
   else
-    return E::compute(spec, run.stop);
+    return E::compute(spec);
 }
 
-/// Returns the checks of a result. Checks `stop`, because a cancelled verification may be
+/// Returns the checks of a result. Throws Stopped if cancelled, because the verification may be
 /// incomplete.
 template <class E>
 std::vector<Check> prove(const typename E::Spec& spec, const typename E::Out& out, const Run& run) {
-  const auto& stop = run.stop;
-  if constexpr (requires { E::verify(spec, out, stop, run.turns); }) {
-    auto checks = E::verify(spec, out, stop, run.turns);
-    ask(stop);
-    return checks;
-  } else if constexpr (requires { E::verify(spec, out, stop); }) {
-    auto checks = E::verify(spec, out, stop);
-    ask(stop);
-    return checks;
-  } else {
-    return E::verify(spec, out);
-  }
+  std::vector<Check> checks;
+  if constexpr (requires { E::verify(spec, out, run.turns); })
+    checks = E::verify(spec, out, run.turns);
+  else
+    checks = E::verify(spec, out);
+  ask();
+  return checks;
 }
 
 /// Reads, computes, proves and judges.
@@ -71,35 +65,35 @@ tl::expected<Worked<E>, Problem> worked(Reader& in, Run& run) {
   auto issues = in.finish_root();
   Answer answer{.request = Json{in.take_echo()}};
   const auto suspecting = [&](Problem problem) {
-    return tl::unexpected(with_suspicions(std::move(problem), answer.request, run.stop));
+    return tl::unexpected(with_suspicions(std::move(problem), answer.request));
   };
   if (!issues.empty()) return suspecting(field_problem(std::move(issues)));
-  const auto places = filled_in(in.body(), answer.request, run.stop);
+  const auto places = filled_in(in.body(), answer.request);
   const auto of_core = [&](const Error& error) {
     return suspecting(pointing_no_further(core_problem(error, answer.request), places));
   };
   run.forget_body();
-  answer.input_sha256 = sha256(dump(answer.request, run.stop), run.stop);
+  answer.input_sha256 = sha256(dump(answer.request));
   run.understood(answer.input_sha256);
   run.stage("decode");
-  if constexpr (requires { E::resolve(spec, run.stop); }) {
-    auto resolved = E::resolve(std::move(spec), run.stop);
+  if constexpr (requires { E::resolve(spec); }) {
+    auto resolved = E::resolve(std::move(spec));
     if (!resolved) {
-      ask(run.stop);
+      ask();
       return of_core(resolved.error());
     }
     spec = *std::move(resolved);
   }
-  ask(run.stop);
+  ask();
   auto out = computed<E>(spec, run);
   run.stage("compute");
-  ask(run.stop);  // a cancelled result may be incomplete
+  ask();  // a cancelled result may be incomplete
   if (!out) return of_core(out.error());
   answer.checks = prove<E>(spec, *out, run);
   run.stage("verify");
   if (auto failed = failed_check(answer.checks)) return tl::unexpected(*std::move(failed));
   answer.warnings = E::warnings(spec, *out);
-  for (auto& warning : unit_suspicions(answer.request, run.stop))
+  for (auto& warning : unit_suspicions(answer.request))
     answer.warnings.push_back(std::move(warning));
   answer.measures = E::measure(spec, *out);
   answer.verdict = judge(answer.warnings, answer.request, answer.measures, run.accepted);

@@ -135,7 +135,7 @@ void answer(benchmark::State& state, const char* media) {
                        .body = body,
                        .job_id = {},
                        .request_id = "bench"};
-  const api::Context context{.stop = {}, .clock = {}, .status = [](ErrorKind) { return 422; }};
+  const api::Context context{.clock = {}, .status = [](ErrorKind) { return 422; }};
   std::size_t bytes = 0;
   for (auto _ : state) {
     const auto out = api::dispatch(call, context);

@@ -18,6 +18,7 @@ pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(MINIZIP REQUIRED IMPORTED_TARGET minizip)
 find_path(SLEEF_INCLUDE_DIR sleef.h REQUIRED)
 find_library(SLEEF_LIBRARY sleef REQUIRED)
+find_library(ZINT_LIBRARY zint REQUIRED)
 
 find_program(MOLD mold)  # links the same program in a fraction of the time
 if(MOLD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT TUBECUT_SANITIZE)

@@ -3,9 +3,3 @@
 set(PRECOMPILED <algorithm> <array> <charconv> <cmath> <cstddef> <cstdint> <functional> <limits> <map> <memory> <numbers> <numeric>
     <optional> <set> <span> <stop_token> <string> <string_view> <tuple> <utility> <variant> <vector> <Eigen/Geometry> <tl/expected.hpp>)
 add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # ccache asks for it
-option(TUBECUT_LOOKS "say where jobs work for long without a look at their stop token (bench/looks)" OFF)
-if(TUBECUT_LOOKS)
-  add_compile_definitions(TUBECUT_LOOKS)
-  add_compile_options(-fno-omit-frame-pointer -g1)
-  list(APPEND PRECOMPILED ${PROJECT_SOURCE_DIR}/bench/looks.hpp)
-endif()

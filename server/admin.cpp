@@ -16,7 +16,7 @@ Response plain(int status, std::string body) {
 
 Response refuse(ErrorCode code, std::string_view detail) {
   api::Outcome outcome =
-      api::problem(code, detail, random_id(), {.stop = {}, .clock = {}, .status = status_of});
+      api::problem(code, detail, random_id(), {.clock = {}, .status = status_of});
   return {.status = status_of(outcome.error.value_or(ErrorKind::internal)),
           .content_type = std::move(outcome.content_type),
           .headers = std::move(outcome.headers),

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <exception>
 
+#include "core/base/stop.hpp"
 #include "server/http/coding.hpp"
 #include "server/http/networks.hpp"
 #include "server/http/static_files.hpp"
@@ -240,8 +241,7 @@ void App::allow_origin(const Request& request, Headers& headers) const {
 }
 
 api::Context App::context() const {
-  return {.stop = x_.stop,
-          .clock = steady_seconds,
+  return {.clock = steady_seconds,
           .status = status_of,
           .max_body = std::min(x_.max_body_bytes, x_.max_job_body_bytes),
           .budget_s = std::chrono::duration<double>(x_.budget).count()};
@@ -249,7 +249,6 @@ api::Context App::context() const {
 
 api::Context App::context(const Request& request) const {
   api::Context with = context();
-  if (request.stop.stop_possible()) with.stop = request.stop;
   with.turns = request.turns;
   with.call_budget_s = std::chrono::duration<double>(budget(request).cpu).count();
   return with;
@@ -267,6 +266,7 @@ api::Outcome App::answer(const Request& request, const Identity& id) const {
   }
   if (is_batch(request))
     if (const auto fault = batch_fault(request)) return refuse(*fault, id);
+  const StopScope scope(request.stop.stop_possible() ? request.stop : x_.stop);
   api::Context with = context(request);
   with.received = request.times.received;
   api::Outcome outcome = x_.dispatch(call_of(request, id), with);

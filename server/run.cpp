@@ -45,7 +45,7 @@ int run_one(std::istream& in, const Command& command) {
                                       .body = body,
                                       .job_id = {},
                                       .request_id = id},
-                                     {.stop = {}, .clock = steady_seconds, .status = status_of});
+                                     {.clock = steady_seconds, .status = status_of});
   std::fwrite(outcome.body.data(), 1, outcome.body.size(), stdout);
   return outcome.error ? 1 : 0;
 }

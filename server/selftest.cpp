@@ -22,7 +22,7 @@ std::string result_of(const api::Example& example) {
                                       .body = example.body,
                                       .job_id = {},
                                       .request_id = "selftest"},
-                                     {.stop = {}, .clock = {}, .status = status_of});
+                                     {.clock = {}, .status = status_of});
   return outcome.job.result_sha256.empty() ? outcome.job.error_code : outcome.job.result_sha256;
 }
 

@@ -18,7 +18,7 @@ def words(markdown):
     for line in markdown.split("\n"):
         if heading := re.match(r"## (.*)$", line):
             kind = SECTIONS.get(heading[1])
-        if kind and (row := re.match(r"\| `([^`]+)` \| ([^|]*) \| ([^|]*)\|$", line)):
+        if kind and (row := re.match(r"\| `([^`]+)` \| ([^|]*) \|(?: [^|]*\|)+$", line)):
             found[kind, row[1]] = row[2].strip()
     return found
 

@@ -144,8 +144,8 @@ struct KinematicFields {
 };
 
 /// Every number of it an assumption.
-void assume_process(ShelfMachine& m) {
-  m.process = assumed_process();
+void assume(Process process, ShelfMachine& m) {
+  m.process = std::move(process);
   m.process_sha256 = process_sha256(*m.process);
   m.values.push_back({"process/clearance_mm", true, ""});
   for (std::size_t i = 0; i < m.process->rows.size(); ++i)
@@ -161,8 +161,10 @@ Shelf built_in() {
     out.push_back({.machine = std::move(entry.machine),
                    .values = std::move(entry.values),
                    .sha256 = std::move(hash)});
-    if (std::holds_alternative<motion::FiveAxisCutter>(out.back().machine.kinematics))
-      assume_process(out.back());
+    const auto& kinematics = out.back().machine.kinematics;
+    if (std::holds_alternative<motion::FiveAxisCutter>(kinematics))
+      assume(assumed_plasma(), out.back());
+    if (std::holds_alternative<motion::TubeTable>(kinematics)) assume(assumed_laser(), out.back());
   }
   return out;
 }

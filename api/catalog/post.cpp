@@ -239,7 +239,7 @@ std::string Post::comment(std::string_view text) const {
   return comment_begin + out + comment_end + "\n";
 }
 
-std::string Post::numbered(std::string program, const std::stop_token& stop) const {
+std::string Post::numbered(std::string program) const {
   if (block_numbers == 0) return program;
   std::string out;
   std::size_t unnumbered = begin.size();
@@ -251,8 +251,8 @@ std::string Post::numbered(std::string program, const std::stop_token& stop) con
     if (unnumbered > 0)
       --unnumbered;
     else if (!line.starts_with(comment_begin) && line != "%\n")
-      append(out, "N" + std::to_string(number += block_numbers) + " ", stop);
-    append(out, line, stop);
+      out += "N" + std::to_string(number += block_numbers) + " ";
+    out += line;
   }
   return out;
 }

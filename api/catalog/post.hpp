@@ -3,7 +3,6 @@
 #include <array>
 #include <initializer_list>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -62,7 +61,7 @@ struct Post {
   [[nodiscard]] std::string comment(std::string_view text) const;
   /// Returns the blocks of a program numbered, if the post numbers them: all except comments and
   /// `begin`.
-  [[nodiscard]] std::string numbered(std::string program, const std::stop_token& stop) const;
+  [[nodiscard]] std::string numbered(std::string program) const;
 };
 
 /// One axis within one move.

@@ -40,8 +40,9 @@ struct Process {
 void encode_process(const Process& process, Writer& w);
 [[nodiscard]] std::string process_sha256(const Process& process);
 
-/// Returns the table of a built-in machine, in which every number is an assumption.
-[[nodiscard]] Process assumed_process();
+/// Return the table of a built-in machine, in which every number is an assumption.
+[[nodiscard]] Process assumed_plasma();
+[[nodiscard]] Process assumed_laser();
 
 /// Values that a program takes from a machine if the request does not set them.
 struct MachineProcess {

@@ -1,9 +1,13 @@
 #include "api/catalog/section_sizes.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <initializer_list>
+#include <string>
 #include <vector>
 
+#include "api/catalog/measures.hpp"
 #include "api/wire/field_names.hpp"
 #include "core/base/error.hpp"
 
@@ -148,19 +152,69 @@ const SectionSize* find_section_size(std::string_view name) {
   return found == sizes.end() ? nullptr : &*found;
 }
 
+namespace {
+
+/// A name without blanks, in small letters: people write "shs 50x50x3" and "SHS50X50X3".
+std::string plain(std::string_view name) {
+  std::string out;
+  for (const char c : name)
+    if (c != ' ') out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return out;
+}
+
+/// Returns whether a name begins with another as a whole, not within a number of it.
+bool begins(const std::string& name, const std::string& with) {
+  if (with.empty() || !name.starts_with(with)) return false;
+  const char next = name.size() > with.size() ? name[with.size()] : ' ';
+  return next != '.' && !(next >= '0' && next <= '9');
+}
+
+/// Returns the size with these sides, in either order, whose wall is nearest, of the named standard
+/// if there is one; empty if no size has them.
+std::string nearest_size(const std::vector<double>& measures, const std::string& meant) {
+  const SectionSize* best = nullptr;
+  const auto [least, most] = std::minmax(measures[0], measures[1]);
+  const auto off = [&](const SectionSize& size) {
+    const auto name = plain(size.name);
+    const auto standard = name.substr(std::min(name.find("en1"), name.find("astm")));
+    return std::pair(meant.find(standard) == std::string::npos,
+                     std::abs(size.section.wall - measures[2]));
+  };
+  for (const auto& size : section_sizes())
+    if (same_measure(std::min(size.section.height, size.section.width), least) &&
+        same_measure(std::max(size.section.height, size.section.width), most) &&
+        (best == nullptr || off(size) < off(*best)))
+      best = &size;
+  return best == nullptr ? std::string() : best->name;
+}
+
+}  // namespace
+
 std::string section_size_hint(std::string_view name) {
+  const auto meant = plain(name);
   std::vector<std::string> names, begun;
   for (const auto& size : section_sizes()) {
     names.push_back(size.name);
-    if (size.name.starts_with(std::string(name) + " ")) begun.push_back(size.name);
+    if (begins(plain(size.name), meant)) begun.push_back(size.name);
   }
   if (begun.size() > 1) {
     std::string out = "did you mean one of " + begun.front();
     for (std::size_t i = 1; i < begun.size(); ++i) out += ", " + begun[i];
     return out + "?";
   }
-  const auto near = begun.empty() ? nearest_name(name, names) : begun.front();
-  return near.empty() ? "GET /v1/tubes lists the sizes" : "did you mean " + near + "?";
+  const auto measures = measures_in(name);
+  const auto near = !begun.empty()         ? begun.front()
+                    : measures.size() == 3 ? nearest_size(measures, meant)
+                                           : nearest_name(name, names);
+  return near.empty() ? "GET /v1/tubes lists the sizes; state any other by kind, height_mm, "
+                        "width_mm, wall_mm and corners"
+                      : "did you mean " + near + "?";
+}
+
+bool is_section_size(std::string_view name) {
+  const auto meant = plain(name);
+  return std::ranges::any_of(std::array{"shs", "rhs", "hss"},
+                             [&](std::string_view kind) { return meant.starts_with(kind); });
 }
 
 }  // namespace tubecut::api

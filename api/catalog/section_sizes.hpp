@@ -24,5 +24,7 @@ struct SectionSize {
 
 /// Returns a hint for an unknown name: the sizes that begin with it, or the most similar one.
 [[nodiscard]] std::string section_size_hint(std::string_view name);
+/// Returns whether a name, known or not, is meant for a tube that is not round.
+[[nodiscard]] bool is_section_size(std::string_view name);
 
 }  // namespace tubecut::api

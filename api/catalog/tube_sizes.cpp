@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <utility>
 #include <vector>
 
+#include "api/catalog/measures.hpp"
+#include "api/catalog/section_sizes.hpp"
 #include "api/wire/json.hpp"
 #include "api/wire/reader.hpp"
 
@@ -305,6 +308,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 36> kNominal
 
 /// "DN100 SCH 40", "DN 100 SCH 40" and "4\" SCH 40" as "NPS 4 SCH 40"; other names as they are.
 std::string as_nps(std::string_view name) {
+  if (name.starts_with("NPS ") && name.find('"') != std::string_view::npos) name.remove_prefix(4);
   if (const auto quote = name.find('"'); quote != std::string_view::npos && quote > 0)
     return "NPS " + std::string(name.substr(0, quote)) + std::string(name.substr(quote + 1));
   if (!name.starts_with("DN")) return std::string(name);
@@ -326,6 +330,16 @@ std::string listed(const std::vector<std::string>& names) {
     out += (i == 0 ? "" : ", ") + names[i];
   if (names.size() > kNamed) out += " and " + std::to_string(names.size() - kNamed) + " more";
   return out;
+}
+
+/// Returns the size of this diameter whose wall is nearest; empty if no size has it.
+std::string nearest_size(double diameter, double wall) {
+  const TubeSize* best = nullptr;
+  for (const auto& size : tube_sizes())
+    if (same_measure(size.outer_diameter, diameter) &&
+        (best == nullptr || std::abs(size.wall - wall) < std::abs(best->wall - wall)))
+      best = &size;
+  return best == nullptr ? std::string() : best->name;
 }
 
 }  // namespace
@@ -351,8 +365,15 @@ std::string tube_size_hint(std::string_view name) {
       of_it.push_back(size.name);
   }
   if (of_it.size() > 1) return "did you mean one of " + listed(of_it) + "?";
-  const auto near = of_it.empty() ? nearest_name(meant, names) : of_it.front();
-  return near.empty() ? "GET /v1/tubes lists the sizes" : "did you mean " + near + "?";
+  const auto measures = measures_in(name);
+  if (of_it.empty() && measures.size() == 3) return section_size_hint(name);
+  const bool by_measures = of_it.empty() && measures.size() == 2 && !meant.starts_with("NPS");
+  const auto near = by_measures     ? nearest_size(measures[0], measures[1])
+                    : of_it.empty() ? nearest_name(meant, names)
+                                    : of_it.front();
+  return near.empty()
+             ? "GET /v1/tubes lists the sizes; state any other by outer_diameter_mm and wall_mm"
+             : "did you mean " + near + "?";
 }
 
 }  // namespace tubecut::api

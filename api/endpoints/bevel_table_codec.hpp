@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <stop_token>
 
 #include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
@@ -89,7 +88,6 @@ void encode_torch_line(const bevel::BeamProof& proof, Writer& w);
 [[nodiscard]] BevelTableRequest decode_bevel_table_request(Reader& in);
 
 /// Errors  those of the node; members as in the request.
-[[nodiscard]] Result<BevelTableRequest> resolve(BevelTableRequest request,
-                                                const std::stop_token& stop);
+[[nodiscard]] Result<BevelTableRequest> resolve(BevelTableRequest request);
 
 }  // namespace tubecut::api

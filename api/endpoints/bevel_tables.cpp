@@ -49,27 +49,26 @@ struct BevelTables {
     return {std::move(out.table), std::move(out.section)};
   }
 
-  static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
+  static Result<Spec> resolve(Spec spec) {
     const auto section = spec.section;
-    TRY(auto resolved, api::resolve(BevelTableRequest(std::move(spec)), stop));
+    TRY(auto resolved, api::resolve(BevelTableRequest(std::move(spec))));
     return Spec{std::move(resolved), section};
   }
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
+  static Result<Out> compute(const Spec& spec) {
     if (spec.section) {
-      TRY(auto table,
-          on_node(spec.source, bevel::section_table(spec.section->section, spec, stop)));
+      TRY(auto table, on_node(spec.source, bevel::section_table(spec.section->section, spec)));
       Out out;
       out.of_section = std::move(table);
       return out;
     }
-    TRY(auto table, on_node(spec.source, bevel::table(spec, stop)));
+    TRY(auto table, on_node(spec.source, bevel::table(spec)));
     Out out{std::move(table)};
-    if (spec.preset == Preset::tube_laser) out.laser = end_report(spec, out, false, stop);
+    if (spec.preset == Preset::tube_laser) out.laser = end_report(spec, out, false);
     return out;
   }
-  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
-    if (spec.section) return bevel::verify(spec.section->section, spec, *out.of_section, stop);
-    return bevel::verify(spec, out, stop);
+  static std::vector<Check> verify(const Spec& spec, const Out& out) {
+    if (spec.section) return bevel::verify(spec.section->section, spec, *out.of_section);
+    return bevel::verify(spec, out);
   }
   static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
     return on_node(spec.source, out.of_section ? out.of_section->warnings : out.warnings);
@@ -153,7 +152,7 @@ struct BevelTables {
 BevelTableRequest decode_bevel_table_request(Reader& in) {
   BevelTableRequest out;
   out.preset = decode_preset(in);
-  check_accepts(in, out.preset);
+  check_accepts(in, {.preset = out.preset});
   out.source = decode_joint(in);
   out.sampling = decode_sampling(in);
   decode_table_options(in, out.preset, out);
@@ -161,8 +160,8 @@ BevelTableRequest decode_bevel_table_request(Reader& in) {
   return out;
 }
 
-Result<BevelTableRequest> resolve(BevelTableRequest request, const std::stop_token& stop) {
-  TRY(auto source, resolve(std::move(request.source), stop));
+Result<BevelTableRequest> resolve(BevelTableRequest request) {
+  TRY(auto source, resolve(std::move(request.source)));
   request.source = std::move(source);
   request.target = request.source.target;
   request.partners = request.source.partners;

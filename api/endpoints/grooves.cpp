@@ -33,11 +33,9 @@ struct Grooves {
   }};
 
   static Spec decode(Reader& in) { return decode_groove_request(in); }
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    return groove::groove(spec, stop);
-  }
-  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
-    return groove::verify(spec, out, stop);
+  static Result<Out> compute(const Spec& spec) { return groove::groove(spec); }
+  static std::vector<Check> verify(const Spec& spec, const Out& out) {
+    return groove::verify(spec, out);
   }
   static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }

@@ -157,11 +157,9 @@ struct Holes {
     return out;
   }
 
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    return bevel::hole(spec, stop);
-  }
-  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
-    return bevel::verify(spec, out, stop);
+  static Result<Out> compute(const Spec& spec) { return bevel::hole(spec); }
+  static std::vector<Check> verify(const Spec& spec, const Out& out) {
+    return bevel::verify(spec, out);
   }
   static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
 

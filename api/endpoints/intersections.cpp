@@ -54,18 +54,18 @@ struct Intersections {
     return out;
   }
 
-  static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
-    TRY(auto source, api::resolve(std::move(spec.source), stop));
+  static Result<Spec> resolve(Spec spec) {
+    TRY(auto source, api::resolve(std::move(spec.source)));
     spec.source = std::move(source);
     spec.target = spec.source.target;
     spec.partners = spec.source.node ? joint::seats(spec.source.found) : spec.source.partners;
     return spec;
   }
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    return on_node(spec.source, joint::curves(spec, outline_of(spec), stop));
+  static Result<Out> compute(const Spec& spec) {
+    return on_node(spec.source, joint::curves(spec, outline_of(spec)));
   }
-  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
-    return joint::verify(spec, outline_of(spec), out, stop);
+  static std::vector<Check> verify(const Spec& spec, const Out& out) {
+    return joint::verify(spec, outline_of(spec), out);
   }
   static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
     return on_node(spec.source, out.warnings);

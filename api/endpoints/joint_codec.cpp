@@ -124,7 +124,9 @@ TubeSection decode_tube_section(Reader& in, bool with_wall) {
                   .hint = "rectangular tubes are cut by " + std::string(kSectionPaths)},
                  in.find("size"));
       else if (!name.empty())
-        in.issue({.code = ErrorCode::unknown_size, .pointer = "size", .hint = tube_size_hint(name)},
+        in.issue({.code = ErrorCode::unknown_size,
+                  .pointer = "size",
+                  .hint = is_section_size(name) ? section_size_hint(name) : tube_size_hint(name)},
                  in.find("size"));
       return out;
     }

@@ -106,17 +106,17 @@ struct MillPaths {
     out.probe = decode_probe(in);
     return out;
   }
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    TRY(auto path, groove::mill_path(spec, stop));
+  static Result<Out> compute(const Spec& spec) {
+    TRY(auto path, groove::mill_path(spec));
     Out out{std::move(path), {}};
     if (!spec.probe.empty()) {
-      TRY(out.seen, groove::probe(spec, out, spec.probe, stop));
+      TRY(out.seen, groove::probe(spec, out, spec.probe));
     }
     return out;
   }
-  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
-    auto checks = groove::verify(static_cast<const groove::MillPathSpec&>(spec), out, stop);
-    if (out.seen) checks.push_back(groove::verify(spec, spec.probe, *out.seen, stop));
+  static std::vector<Check> verify(const Spec& spec, const Out& out) {
+    auto checks = groove::verify(static_cast<const groove::MillPathSpec&>(spec), out);
+    if (out.seen) checks.push_back(groove::verify(spec, spec.probe, *out.seen));
     return checks;
   }
   static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }

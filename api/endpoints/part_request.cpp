@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "api/endpoints/bevel_table_codec.hpp"
-#include "api/endpoints/cutout_codec.hpp"
+#include "api/endpoints/cutouts/cutout_codec.hpp"
+#include "api/endpoints/cutouts/square_hole.hpp"
 #include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/frames/renaming.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/endpoints/part_ends.hpp"
 #include "api/endpoints/section_bevel_table.hpp"
-#include "api/endpoints/square_hole.hpp"
 #include "api/limits.hpp"
 #include "api/wire/part_names.hpp"
 #include "core/base/try.hpp"
@@ -29,7 +29,7 @@ constexpr Range kAllowance{.min = 0.0, .max = 1e5};
 constexpr Range kDensity{.min = 100.0, .max = 25'000.0};  // kg/m^3
 constexpr std::size_t kMostMarks = 1'000;
 constexpr CountRange kHoles{
-    .min = 0, .max = 64, .instead = "holes without a branch are cutouts, up to 2000"};
+    .min = 0, .max = 256, .instead = "holes without a branch are cutouts, up to 2000"};
 
 struct Blank {
   double clamping = 0.0, facing = 0.0;
@@ -88,16 +88,10 @@ double half_side(const SectionTarget& of) {
 }
 
 /// Refuses the fields of a round part. The datum line of another is the middle of face 1.
-void refuse_round_part(Reader& in, Preset preset) {
+void refuse_round_part(Reader& in) {
   constexpr std::string_view kRoundOnly = "requires a round target";
   in.choice("datum", kOnly<Datum::up>, Datum::up);
   refuse_fields(in, {"seam_deg"}, kRoundOnly);
-  if (preset == Preset::tube_laser) refuse_limit(in, "min_tongue_mm", kRoundOnly);
-  const bool open = in.has("cutouts") || in.has("holes");
-  if (preset == Preset::tube_laser && !open)
-    for (const auto name : {"min_web_mm", "min_hole_to_end_mm"})
-      refuse_limit(in, name, "requires cutouts or holes, or a round target");
-  if (preset == Preset::tube_laser || open) refuse_limit(in, "min_seam_to_hole_mm", kRoundOnly);
 }
 
 void decode_member(Reader& in, PartRequest& out) {
@@ -113,7 +107,7 @@ void decode_member(Reader& in, PartRequest& out) {
   const bool sure = found && in.sound("members");
   const bool up = m.up || (found && m.node.members[m.member].up);
   if (out.section) {
-    refuse_round_part(in, out.preset);
+    refuse_round_part(in);
     m.datum = Datum::up;
   } else {
     const auto datum = decode_datum(in, up ? Datum::up : Datum::first_cutter, up || !found);
@@ -195,7 +189,7 @@ void decode_part_target(Reader& in, std::string& name) {
 void decode_section_part(Reader& in, PartRequest& out) {
   out.section = decode_section_target(in);
   decode_part_target(in, out.part.name);
-  refuse_round_part(in, out.preset);
+  refuse_round_part(in);
   bevel::TableSpec once;
   std::size_t count = 0;
   once.target = target_of(*out.section);
@@ -298,8 +292,12 @@ std::vector<std::string> names(const joint::NodeSpec& node, const std::vector<st
 PartRequest decode_part_request(Reader& in, Tubes tubes) {
   PartRequest out;
   out.preset = decode_preset(in);
-  check_accepts(in, out.preset);
   const auto which = in.exactly_one({"members", "target"});
+  Measured measured{.preset = out.preset,
+                    .cutouts = in.has("cutouts"),
+                    .holes = in.has("holes"),
+                    .seam_known = true};
+  check_accepts(in, measured);  // as far as it needs neither the tube nor its seam
   if (!which) {
     if (in.refused()) in.silence();  // the other fields depend on which of the two it is
     return out;
@@ -310,7 +308,10 @@ PartRequest decode_part_request(Reader& in, Tubes tubes) {
     decode_section_part(in, out);
   else
     decode_direct(in, out);
-  if (in.understood("datum") && !out.section) check_seam_limit(in, out.preset, out.seam_known());
+  const auto before = measured;
+  measured.round = !out.section;
+  measured.seam_known = !in.understood("datum") || out.seam_known();
+  check_accepts(in, measured, before);
   const auto blank = decode_blank(in);
   const double density = in.number("density_kg_m3", kDensity, 7850.0);
   out.part.clamping = blank.clamping;
@@ -345,7 +346,7 @@ Result<void> cut_square_holes(PartRequest& r) {
 
 }  // namespace
 
-Result<PartRequest> resolve(PartRequest r, const std::stop_token& stop) {
+Result<PartRequest> resolve(PartRequest r) {
   if (r.section && !r.member) {
     TRY(cut_square_holes(r));
     auto marks = std::move(r.of_section.partners);
@@ -364,7 +365,7 @@ Result<PartRequest> resolve(PartRequest r, const std::stop_token& stop) {
   r.member->clamping = r.part.clamping;
   r.member->facing = r.part.facing;
   r.member->density = r.part.density;
-  TRY(auto found, part::find_member(*r.member, stop));
+  TRY(auto found, part::find_member(*r.member));
   auto cutouts = std::move(r.part.cutouts);
   r.part = std::move(found.part);
   r.part.cutouts = std::move(cutouts);

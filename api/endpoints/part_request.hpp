@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -38,7 +37,7 @@ enum class Tubes { round, all };
 [[nodiscard]] PartRequest decode_part_request(Reader& in, Tubes tubes);
 
 /// Errors  those of part::find_member and part::datum_angle; members as in the request.
-[[nodiscard]] Result<PartRequest> resolve(PartRequest request, const std::stop_token& stop);
+[[nodiscard]] Result<PartRequest> resolve(PartRequest request);
 
 /// The same issue or warning of core's part, naming the request's own members.
 [[nodiscard]] Error on_request(const PartRequest& request, Error error);

@@ -6,7 +6,8 @@
 
 #include "api/endpoints/all.hpp"
 #include "api/endpoints/bevel_table_codec.hpp"
-#include "api/endpoints/cutout_answer.hpp"
+#include "api/endpoints/cutouts/cutout_answer.hpp"
+#include "api/endpoints/cutouts/text_answer.hpp"
 #include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
@@ -30,13 +31,12 @@
 namespace tubecut::api {
 namespace {
 
-using part::Mark;
 using part::Step;
 
-Parts::Laser laser_of(const PartRequest& spec, const part::Part& p, const std::stop_token& stop) {
-  return {.start = end_report(p.start.spec, p.start.table, false, stop),
-          .finish = end_report(p.finish.spec, p.finish.table, true, stop),
-          .webs = part::webs(spec.part, p, stop)};
+Parts::Laser laser_of(const PartRequest& spec, const part::Part& p) {
+  return {.start = end_report(p.start.spec, p.start.table, false),
+          .finish = end_report(p.finish.spec, p.finish.table, true),
+          .webs = part::webs(spec.part, p)};
 }
 
 void add_laser(const PartRequest& spec, const Parts::Out& out, std::vector<Measure>& all) {
@@ -133,28 +133,26 @@ void encode_dimension(Writer& each, const part::CheckDimension& d) {
 
 Parts::Spec Parts::decode(Reader& in) { return decode_part_request(in, Tubes::all); }
 
-Result<Parts::Spec> Parts::resolve(Spec spec, const std::stop_token& stop) {
-  return api::resolve(std::move(spec), stop);
-}
+Result<Parts::Spec> Parts::resolve(Spec spec) { return api::resolve(std::move(spec)); }
 
-Result<Parts::Out> Parts::compute(const Spec& spec, const std::stop_token& stop) {
+Result<Parts::Out> Parts::compute(const Spec& spec) {
   if (spec.section) {
-    auto made = part::section_part(spec.of_section, stop);
+    auto made = part::section_part(spec.of_section);
     if (!made) return tl::unexpected(on_request(spec, made.error()));
     Out out;
     out.of_section = *std::move(made);
     return out;
   }
-  auto part = part::part(spec.part, stop);
+  auto part = part::part(spec.part);
   if (!part) return tl::unexpected(on_request(spec, part.error()));
   Out out{*std::move(part)};
-  if (spec.preset == Preset::tube_laser) out.laser = laser_of(spec, out, stop);
+  if (spec.preset == Preset::tube_laser) out.laser = laser_of(spec, out);
   return out;
 }
 
-std::vector<Check> Parts::verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
-  if (out.of_section) return part::verify(spec.of_section, *out.of_section, stop);
-  return part::verify(spec.part, out, stop);
+std::vector<Check> Parts::verify(const Spec& spec, const Out& out) {
+  if (out.of_section) return part::verify(spec.of_section, *out.of_section);
+  return part::verify(spec.part, out);
 }
 
 std::vector<Warning> Parts::warnings(const Spec& spec, const Out& out) {
@@ -208,16 +206,7 @@ void Parts::encode(const Spec& spec, const Out& out, Writer& w) {
   w.degrees("clocking_between_ends_deg", out.clocking);
   w.object("lengths", [&](Writer& o) { encode_lengths(out.lengths, o); });
   w.array("check_dimensions", out.check_dimensions, encode_dimension);
-  w.array("marks", out.marks, [&](Writer& each, const Mark& mark) {
-    each.object([&](Writer& o) {
-      o.field("kind", name_of(mark.kind));
-      o.field("text", mark.text);
-      o.degrees("phi_deg", mark.phi);
-      o.field("girth_mm", spec.part.target.outer_radius * mark.phi);
-      o.field("z_from_mm", mark.z_from);
-      o.field("z_to_mm", mark.z_to);
-    });
-  });
+  encode_marks(out, spec.part.target.outer_radius, w);
   encode_sequence(out.sequence, out.cutouts, w);
   if (out.laser) encode_webs(out.laser->webs, spec.seam_known(), w);
 }

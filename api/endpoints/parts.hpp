@@ -2,12 +2,11 @@
 
 #include <array>
 #include <optional>
-#include <stop_token>
 #include <string_view>
 #include <vector>
 
 #include "api/endpoints/bevel_table_codec.hpp"
-#include "api/endpoints/cutout_codec.hpp"
+#include "api/endpoints/cutouts/cutout_codec.hpp"
 #include "api/endpoints/part_request.hpp"
 #include "api/endpoints/tube_laser.hpp"
 #include "api/limits.hpp"
@@ -62,9 +61,9 @@ struct Parts {
   static constexpr auto kChecks = joined(kTableChecks, kOwnChecks);
 
   static Spec decode(Reader& in);
-  static Result<Spec> resolve(Spec spec, const std::stop_token& stop);
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop);
-  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop);
+  static Result<Spec> resolve(Spec spec);
+  static Result<Out> compute(const Spec& spec);
+  static std::vector<Check> verify(const Spec& spec, const Out& out);
   static std::vector<Warning> warnings(const Spec& spec, const Out& out);
   static std::vector<Measure> measure(const Spec& spec, const Out& out);
   static void encode(const Spec& spec, const Out& out, Writer& w);

@@ -126,7 +126,7 @@ bool cuts_section(const Reader& in) { return has_section_target(in) || has_secti
 SectionCutRequest decode_section_cut_request(Reader& in) {
   SectionCutRequest out;
   out.table.preset = decode_preset(in);
-  check_accepts(in, out.table.preset);
+  check_accepts(in, {.preset = out.table.preset, .round = false});
   out.section = decode_section_cut(in, out.table);
   return out;
 }
@@ -145,8 +145,6 @@ SectionTarget decode_section_cut(Reader& in, BevelTableRequest& out) {
   out.sampling = decode_sampling(in);
   decode_table_options(in, out.preset, out);
   refuse_round_only(in, out);
-  if (out.preset == Preset::tube_laser)
-    refuse_limit(in, "min_tongue_mm", "tongues are measured on round targets only");
   out.columns = decode_columns(in, all_names(), section_bevel_column_names(out));
   return section;
 }

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "api/endpoints/cutout_answer.hpp"
+#include "api/endpoints/cutouts/cutout_answer.hpp"
+#include "api/endpoints/cutouts/text_answer.hpp"
 #include "api/endpoints/part_codec.hpp"
 #include "api/endpoints/place_text.hpp"
 #include "api/endpoints/section_bevel_table.hpp"
@@ -102,15 +103,7 @@ void encode_part(const PartRequest& spec, const part::SectionPart& part, Writer&
     o.column("corner_mm", corners);
   });
   w.array("check_dimensions", part.check_dimensions, encode_dimension);
-  w.array("marks", part.marks, [&](Writer& each, const part::SectionMark& mark) {
-    each.object([&](Writer& o) {
-      o.field("kind", name_of(mark.kind));
-      o.field("text", mark.text);
-      o.field("girth_mm", mark.s);
-      o.field("z_from_mm", mark.z_from);
-      o.field("z_to_mm", mark.z_to);
-    });
-  });
+  encode_marks(part, w);
   encode_sequence(part.sequence, part.cutouts, w);
 }
 

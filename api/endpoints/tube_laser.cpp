@@ -56,30 +56,33 @@ Preset decode_preset(Reader& in) {
   return in.has("preset") ? in.tag("preset", kPresets).value_or(Preset::none) : Preset::none;
 }
 
-void refuse_limit(Reader& in, std::string_view name, std::string_view hint) {
+std::string_view missing_for(std::string_view limit, const Measured& of) {
+  const auto in = [&](const auto& names) { return std::ranges::find(names, limit) != names.end(); };
+  const bool laser = of.preset == Preset::tube_laser;
+  if (in(kCutoutAccepts)) return of.cutouts ? "" : "requires cutouts";
+  if (in(kEndAccepts)) {
+    if (!laser) return "requires preset tube_laser";
+    return limit == kEndAccepts.back() && !of.round ? "requires a round target" : "";
+  }
+  if (!in(kPartAccepts)) return {};
+  if (!laser && !of.cutouts) return "requires preset tube_laser or cutouts";
+  if (limit != kPartAccepts.back())
+    return of.round || of.cutouts || of.holes ? "" : "requires cutouts or holes, or a round target";
+  if (!of.round) return "requires a round target";
+  return of.seam_known ? "" : "requires datum seam, which gives the seam's position";
+}
+
+void check_accepts(Reader& in, const Measured& of, const std::optional<Measured>& before) {
   const auto* accept = in.find("accept");
-  if (accept == nullptr || accept->as<Json::Object>() == nullptr) return;
-  if (const auto* value = accept->find(name))
-    in.issue({.code = ErrorCode::unsupported_combination,
-              .pointer = "accept/" + std::string(name),
-              .hint = std::string(hint)},
-             value);
-}
-
-void check_accepts(Reader& in, Preset preset) {
-  const bool cutouts = in.has("cutouts");
-  if (!cutouts)
-    for (const auto name : kCutoutAccepts) refuse_limit(in, name, "requires cutouts");
-  if (preset == Preset::tube_laser) return;
-  for (const auto name : kEndAccepts) refuse_limit(in, name, "requires preset tube_laser");
-  if (cutouts) return;
-  for (const auto name : kPartAccepts)
-    refuse_limit(in, name, "requires preset tube_laser or cutouts");
-}
-
-void check_seam_limit(Reader& in, Preset preset, bool seam_known) {
-  if ((preset == Preset::tube_laser || in.has("cutouts")) && !seam_known)
-    refuse_limit(in, kPartAccepts.back(), "requires datum seam, which gives the seam's position");
+  const auto* limits = accept == nullptr ? nullptr : accept->as<Json::Object>();
+  if (limits == nullptr) return;
+  for (const auto& [name, value] : *limits)
+    if (const auto hint = missing_for(name, of);
+        !hint.empty() && !(before && !missing_for(name, *before).empty()))
+      in.issue({.code = ErrorCode::unsupported_combination,
+                .pointer = "accept/" + name,
+                .hint = std::string(hint)},
+               &value);
 }
 
 bevel::GrooveRule decode_square_groove(Reader& in) {
@@ -119,9 +122,8 @@ void check_torch_reaches_square(Reader& in, const bevel::TorchRange& torch) {
             .hint = std::string(kUntilted)});
 }
 
-EndReport end_report(const bevel::TableSpec& spec, const bevel::Table& table, bool towards_plus_z,
-                     const std::stop_token& stop) {
-  return {.tongue = bevel::narrowest_tongue(spec.target, table, towards_plus_z, stop),
+EndReport end_report(const bevel::TableSpec& spec, const bevel::Table& table, bool towards_plus_z) {
+  return {.tongue = bevel::narrowest_tongue(spec.target, table, towards_plus_z),
           .reach = bevel::reach(table)};
 }
 

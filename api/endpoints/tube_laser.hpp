@@ -2,7 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <stop_token>
 #include <string_view>
 #include <vector>
 
@@ -30,12 +29,18 @@ inline constexpr std::array<std::string_view, 3> kPartAccepts{"min_web_mm", "min
 inline constexpr std::array<std::string_view, 2> kCutoutAccepts{"min_diameter_mm",
                                                                 "min_diameter_per_wall"};
 
-/// A limit that nothing would be measured for is an issue: without the preset, and of the seam
-/// where nobody says where it lies.
-void check_accepts(Reader& in, Preset preset);
-/// Refuses one limit, if `accept` has it.
-void refuse_limit(Reader& in, std::string_view name, std::string_view hint);
-void check_seam_limit(Reader& in, Preset preset, bool seam_known);
+/// The parts of a request that decide which limits of `accept` something is measured for.
+struct Measured {
+  Preset preset = Preset::none;
+  bool round = true;  // the target, or of a frame some member
+  bool cutouts = false, holes = false;
+  bool seam_known = false;
+};
+/// Returns the condition that is missing if nothing is measured for this limit, else nothing.
+[[nodiscard]] std::string_view missing_for(std::string_view limit, const Measured& of);
+/// Refuses every limit of `accept` that nothing would be measured for, except those that an earlier
+/// call for `before` has refused.
+void check_accepts(Reader& in, const Measured& of, const std::optional<Measured>& before = {});
 
 /// With the preset: the square groove, no smoothing, a hole's own rule and tilt. Another choice is
 /// an issue at its own field.
@@ -51,7 +56,7 @@ struct EndReport {
   double reach = 0.0;
 };
 [[nodiscard]] EndReport end_report(const bevel::TableSpec& spec, const bevel::Table& table,
-                                   bool towards_plus_z, const std::stop_token& stop);
+                                   bool towards_plus_z);
 void encode_end_report(const bevel::Table& table, const EndReport& report, Writer& w);
 [[nodiscard]] std::vector<Measure> measures_of(const bevel::Table& table, const EndReport& report);
 

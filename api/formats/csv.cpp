@@ -45,7 +45,7 @@ void print_cell(const Column::Values& values, std::size_t i, std::string& out) {
 
 Csv& Csv::table(const Columns& columns) {
   for (const auto& [name, values, seen] : columns.all()) {
-    ask(stop_);
+    ask();
     if (seen) columns_.push_back({name, {{0, values}}});
   }
   return *this;
@@ -60,7 +60,7 @@ Csv& Csv::stacked(std::string_view label,
     const auto rows = rows_of(table);
     labels.pieces.push_back({from, std::vector<std::string>(rows, name)});
     for (const auto& column : table.all()) {
-      ask(stop_);
+      ask();
       auto stack = std::ranges::find(stacks, column.name, &Stack::name);
       if (stack == stacks.end()) stack = stacks.insert(stacks.end(), Stack{column.name, {}});
       stack->pieces.push_back({from, column.values});
@@ -84,8 +84,7 @@ std::string Csv::print() const {
   out += "\r\n";
   std::vector<std::size_t> at(columns_.size(), 0);  // the piece that a column is in
   for (std::size_t i = 0; i < rows; ++i) {
-    ask(stop_);
-    make_room(out, kRowBytes, stop_);
+    ask();
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       if (k > 0) out += ',';
       const auto& pieces = columns_[k].pieces;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,8 +16,7 @@ namespace tubecut::api {
 /// numbers as in JSON, texts by csv_text, `true` and `false`.
 class Csv {
  public:
-  explicit Csv(const Caption& caption)
-      : head_(verdict_lines(caption.verdict)), stop_(caption.stop) {}
+  explicit Csv(const Caption& caption) : head_(verdict_lines(caption.verdict)) {}
 
   /// A line of the head.
   Csv& remark(std::string text) {
@@ -44,7 +42,6 @@ class Csv {
   };
   std::vector<std::string> head_;
   std::vector<Stack> columns_;
-  std::stop_token stop_;
 };
 
 }  // namespace tubecut::api

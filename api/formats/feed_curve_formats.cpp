@@ -43,7 +43,7 @@ std::string feed_curve_csv(const cutoff::FeedCurveSpec&, const cutoff::FeedCurve
     const auto& s = curve.cycle->samples;
     Columns columns;
     const auto add = [&](std::string_view name, const std::vector<double>& values) {
-      ask(caption.stop);  // a million numbers are copied
+      ask();  // a million numbers are copied
       columns.column(name, values);
     };
     add("t_s", s.time);

@@ -37,8 +37,7 @@ std::string groove_csv(const groove::GrooveSpec&, const groove::Groove& g, const
 std::string groove_svg(const groove::GrooveSpec& spec, const groove::Groove& g,
                        const Caption& caption) {
   if (caption.view == "section")
-    return print_svg({groove_section_sheet(spec, g, caption)}, "Sections of the groove",
-                     caption.stop);
+    return print_svg({groove_section_sheet(spec, g, caption)}, "Sections of the groove");
   if (caption.options.omega)
     throw UnfitOption{"omega_deg", "the section at an angle is drawn by view=section"};
   const auto omega = each(g.sections, [](S s) { return s.omega.deg(); });
@@ -75,7 +74,7 @@ std::string groove_gltf(const groove::GrooveSpec&, const groove::Groove& g,
       mesh.positions.push_back(point);
       mesh.colors.push_back(diverging(s.ruling.twist.rad() / worst));
     }
-  mesh.indices = band_triangles(g.sections.size(), 4, caption.stop);
+  mesh.indices = band_triangles(g.sections.size(), 4);
   return print_gltf({mesh}, caption);
 }
 
@@ -131,7 +130,7 @@ std::string mill_path_gltf(const groove::MillPathSpec& spec, const groove::MillP
   const std::size_t across = path.positions.empty() ? 0 : path.positions.front().after.gap.size();
   for (auto& mesh : meshes) mesh.reserve(across * path.positions.size());
   for (const auto& p : path.positions) {
-    ask(caption.stop);
+    ask();
     const auto section = groove::section(*joint, p.omega);
     for (std::size_t k = 0; k < across; ++k) {
       const double v = static_cast<double>(k) / static_cast<double>(across - 1);
@@ -141,8 +140,7 @@ std::string mill_path_gltf(const groove::MillPathSpec& spec, const groove::MillP
       meshes[1].colors.push_back(diverging(-p.after.gap[k] / worst));
     }
   }
-  for (auto& mesh : meshes)
-    mesh.indices = band_triangles(path.positions.size(), across, caption.stop);
+  for (auto& mesh : meshes) mesh.indices = band_triangles(path.positions.size(), across);
   return print_gltf(meshes, caption);
 }
 

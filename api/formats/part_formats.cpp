@@ -14,16 +14,18 @@
 #include "api/stop.hpp"
 #include "api/wire/part_names.hpp"
 #include "api/wire/tables.hpp"
+#include "core/torch/marks.hpp"
 
 namespace tubecut::api {
 namespace {
 
 /// The points of every cut, in the order of the sequence.
-std::vector<std::pair<std::string, Columns>> cuts(const part::PartSpec& spec, const part::Part& p,
-                                                  const std::stop_token& stop) {
-  std::vector<std::pair<std::string, Columns>> out;
+NamedColumns cuts(const part::PartSpec& spec, const part::Part& p) {
+  NamedColumns out;
   for (const auto& step : p.sequence) {
-    ask(stop);
+    ask();
+    if (step.what == part::Step::What::mark && p.marks[step.index].lettering)
+      add_strokes(*p.marks[step.index].lettering, out);
     if (step.what == part::Step::What::hole) {
       const auto& placed = p.holes[step.index];
       out.emplace_back("hole " + std::to_string(step.index),
@@ -50,6 +52,18 @@ std::vector<Canvas> sheets(const part::PartSpec& spec, const part::Part& part,
 }
 
 }  // namespace
+
+void add_strokes(const cutout::Lettering& text, NamedColumns& out) {
+  for (std::size_t i = 0; i < text.strokes.size(); ++i) {
+    std::vector<double> z, girth;
+    for (const auto& p : text.strokes[i]) {
+      z.push_back(p.x());
+      girth.push_back(p.y());
+    }
+    out.emplace_back(torch::stroke_name(text, i),
+                     Columns().column("z_mm", std::move(z)).column("girth_mm", std::move(girth)));
+  }
+}
 
 Columns dimension_columns(const std::vector<part::CheckDimension>& dimensions) {
   std::vector<std::string> names, from, tools, changes;
@@ -86,16 +100,16 @@ std::string part_csv(const part::PartSpec& spec, const part::Part& part, const C
     return Csv(caption).table(dimension_columns(part.check_dimensions)).print();
   return Csv(caption)
       .remark(std::string("b_sign: ").append(kBSignInPart))
-      .stacked("cut", cuts(spec, part, caption.stop))
+      .stacked("cut", cuts(spec, part))
       .print();
 }
 
 std::string part_svg(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  return print_svg(sheets(spec, part, caption), title_of_part(caption), caption.stop);
+  return print_svg(sheets(spec, part, caption), title_of_part(caption));
 }
 
 std::string part_pdf(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
-  return print_pdf(sheets(spec, part, caption), title_of_part(caption), caption.stop);
+  return print_pdf(sheets(spec, part, caption), title_of_part(caption));
 }
 
 std::string part_dxf(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {

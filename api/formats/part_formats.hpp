@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "api/wire/columns.hpp"
@@ -10,8 +11,8 @@
 
 namespace tubecut::api {
 
-/// Both ends and the holes in the part's frame, one row a point, in the order they are cut; then
-/// the check dimensions, in columns of their own.
+/// The texts' strokes, the holes and both ends in the part's frame, one row a point, in the order
+/// they are made; then the check dimensions, in columns of their own.
 [[nodiscard]] std::string part_csv(const part::PartSpec& spec, const part::Part& part,
                                    const Caption& caption);
 
@@ -31,6 +32,9 @@ namespace tubecut::api {
 
 /// Of every tube's part: the check dimensions, the title of its sheets, and the options
 /// that only a template takes.
+using NamedColumns = std::vector<std::pair<std::string, Columns>>;
+/// Adds the strokes of a text, each as a table of its own.
+void add_strokes(const cutout::Lettering& text, NamedColumns& out);
 [[nodiscard]] Columns dimension_columns(const std::vector<part::CheckDimension>& dimensions);
 [[nodiscard]] std::string_view title_of_part(const Caption& caption);
 void refuse_options_of_template(const Caption& caption);

@@ -20,16 +20,15 @@ namespace {
 constexpr const char* kColors[] = {"#2c6a9b", "#c2571a", "#4a8a57",
                                    "#8a5f8f", "#a98545", "#3f8a9a"};
 /// Returns the speed on the surface for which it is requested, mm/min.
-std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Schedule& s,
-                              const std::stop_token& stop) {
+std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Schedule& s) {
   motion::Counted counted{s.period, static_cast<std::size_t>(s.periods), {}, {}, {}};
   for (const auto& axis : s.axes) {
     counted.counts.emplace_back(axis.counts);
     counted.start.push_back(axis.start);
   }
   motion::Replay path;
-  motion::rebuild(spec, counted, path, stop);
-  ask(stop);
+  motion::rebuild(spec, counted, path);
+  ask();
   std::vector<double> out;
   const auto& contour = std::get<motion::CutPath>(spec.cut);
   const bool outer = spec.motion.speed_on == motion::Surface::outer;
@@ -38,7 +37,7 @@ std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Sc
   const auto along = [&](std::size_t i) { return path.z[i] - rise * elementary::tan(path.b[i]); };
   const bool section = contour.section.has_value();
   constexpr std::size_t kMean = 25;  // periods, over which the rounding of pulses averages out
-  Pace pace(stop);
+  Pace pace;
   for (std::size_t i = kMean; i < path.phi.size(); ++i) {
     pace.turn();
     const std::size_t from = i - kMean;
@@ -137,14 +136,13 @@ std::string schedule_svg(const motion::ScheduleSpec& spec, const motion::Schedul
   std::vector<Chart> charts{std::move(pulses)};
   const auto* const contour = std::get_if<motion::CutPath>(&spec.cut);
   if (contour != nullptr && !contour->phi.empty()) {
-    Chart speed{
-        .title = std::string("Speed of the cut on the ") +
-                 std::string(name_of(spec.motion.speed_on)) + " surface, mean of 25 periods",
-        .x_label = "time, s",
-        .y_label = "mm/min",
-        .series =
-            {{.name = "tip", .x = {}, .y = tip_speed(spec, s, caption.stop), .every = s.period}},
-        .y_from_zero = true};
+    Chart speed{.title = std::string("Speed of the cut on the ") +
+                         std::string(name_of(spec.motion.speed_on)) +
+                         " surface, mean of 25 periods",
+                .x_label = "time, s",
+                .y_label = "mm/min",
+                .series = {{.name = "tip", .x = {}, .y = tip_speed(spec, s), .every = s.period}},
+                .y_from_zero = true};
     for (const auto& zone : s.report.slow)
       speed.bands.push_back({s.period * static_cast<double>(zone.from),
                              s.period * static_cast<double>(zone.to), "slow"});

@@ -113,8 +113,7 @@ std::vector<Chart> bevel_charts(const SectionCut& cut, const Caption& caption) {
 /// Prints the template, or the charts of another view.
 template <class Charts>
 std::string svg(const Development& development, Charts&& charts, const Caption& caption) {
-  if (caption.view == "template")
-    return print_svg(wrap_template(development, caption), kTemplate, caption.stop);
+  if (caption.view == "template") return print_svg(wrap_template(development, caption), kTemplate);
   refuse_paper(caption);
   return print_charts(charts(), caption);
 }
@@ -130,8 +129,7 @@ std::string section_svg(const section::Section& section, const joint::SectionInt
 
 std::string section_pdf(const section::Section& section, const joint::SectionIntersection& cut,
                         const Caption& caption) {
-  return print_pdf(wrap_template(developed(section, cut, BoreOn::outside), caption), kTemplate,
-                   caption.stop);
+  return print_pdf(wrap_template(developed(section, cut, BoreOn::outside), caption), kTemplate);
 }
 
 std::string section_dxf(const section::Section& section, const joint::SectionIntersection& cut,
@@ -152,7 +150,7 @@ std::string section_bevel_svg(const SectionCut& cut, const Caption& caption) {
 
 std::string section_bevel_pdf(const SectionCut& cut, const Caption& caption) {
   return print_pdf(wrap_template(developed(cut.section, cut.table, BoreOn::outside), caption),
-                   kTemplate, caption.stop);
+                   kTemplate);
 }
 
 std::string section_bevel_dxf(const SectionCut& cut, const Caption& caption) {
@@ -161,12 +159,12 @@ std::string section_bevel_dxf(const SectionCut& cut, const Caption& caption) {
 
 std::string section_bevel_stl(const SectionCut& cut, const Caption& caption) {
   const auto which = caption.view == "before" ? Smoothed::before : Smoothed::after;
-  return print_stl(cut_solid(cut.section, cut.spec, cut.table, which, caption.stop), caption);
+  return print_stl(cut_solid(cut.section, cut.spec, cut.table, which), caption);
 }
 
 std::string section_bevel_gltf(const SectionCut& cut, const Caption& caption) {
   const auto of = [&](Smoothed which) {
-    ColouredSolid out{cut_solid(cut.section, cut.spec, cut.table, which, caption.stop), {}};
+    ColouredSolid out{cut_solid(cut.section, cut.spec, cut.table, which), {}};
     for (const auto& ring : out.solid.rings) {
       const auto &a = ring[out.solid.cut_points - 2], &b = ring[out.solid.cut_points - 1];
       const double across = (b - a).head<2>().norm();

@@ -24,8 +24,10 @@ std::string section_part_csv(const part::SectionPartSpec& spec, const part::Sect
                              const Caption& caption) {
   if (caption.view == "check_dimensions")
     return Csv(caption).table(dimension_columns(part.check_dimensions)).print();
-  std::vector<std::pair<std::string, Columns>> cuts;
+  NamedColumns cuts;
   const double radius = spec.section.outer().girth() / kTwoPi;
+  for (const auto& mark : part.marks)
+    if (mark.lettering) add_strokes(*mark.lettering, cuts);
   for (const auto& step : part.sequence)
     if (step.what == part::Step::What::cutout)
       cuts.emplace_back(
@@ -54,12 +56,12 @@ std::vector<Canvas> sheets(const part::SectionPartSpec& spec, const part::Sectio
 
 std::string section_part_svg(const part::SectionPartSpec& spec, const part::SectionPart& part,
                              const Caption& caption) {
-  return print_svg(sheets(spec, part, caption), title_of_part(caption), caption.stop);
+  return print_svg(sheets(spec, part, caption), title_of_part(caption));
 }
 
 std::string section_part_pdf(const part::SectionPartSpec& spec, const part::SectionPart& part,
                              const Caption& caption) {
-  return print_pdf(sheets(spec, part, caption), title_of_part(caption), caption.stop);
+  return print_pdf(sheets(spec, part, caption), title_of_part(caption));
 }
 
 std::string section_part_dxf(const part::SectionPartSpec& spec, const part::SectionPart& part,

@@ -68,7 +68,7 @@ ZipArchive::ZipArchive() : memory_(std::make_unique<ZipMemory>()), zip_(nullptr,
 
 ZipArchive::~ZipArchive() = default;
 
-void ZipArchive::add(const std::string& name, std::string_view bytes, const std::stop_token& stop) {
+void ZipArchive::add(const std::string& name, std::string_view bytes) {
   constexpr uLong kDeflate20 = 20, kUtf8 = 1UL << 11;     // of the format: version, flag
   constexpr uLong kEarliest = (1UL << 21) | (1UL << 16);  // 1980-01-01 in MS-DOS's bits
   constexpr std::size_t kPiece = 1U << 16;                // some 2 ms of deflate
@@ -79,7 +79,7 @@ void ZipArchive::add(const std::string& name, std::string_view bytes, const std:
                                  Z_DEFLATED, Z_DEFAULT_COMPRESSION, 0, -MAX_WBITS, DEF_MEM_LEVEL,
                                  Z_DEFAULT_STRATEGY, nullptr, kNoCrc, kDeflate20, kUtf8, 0));
   while (!bytes.empty()) {
-    ask(stop);
+    ask();
     const auto piece = bytes.substr(0, kPiece);
     demand(zipWriteInFileInZip(zip_.get(), piece.data(), static_cast<unsigned>(piece.size())));
     bytes.remove_prefix(piece.size());

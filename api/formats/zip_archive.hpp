@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -17,7 +16,7 @@ class ZipArchive {
   ~ZipArchive();
   /// `name` in UTF-8, its folders between `/`; each name once. Throws Stopped if cancelled, and
   /// std::runtime_error if minizip fails.
-  void add(const std::string& name, std::string_view bytes, const std::stop_token& stop);
+  void add(const std::string& name, std::string_view bytes);
   /// Returns the archive; call nothing after it.
   [[nodiscard]] std::string take();
 

@@ -39,10 +39,8 @@ void put_integer(std::string& out, std::int64_t v) {
 }
 
 /// Its bytes, little endian.
-void little_endian(std::string& out, std::span<const std::int32_t> values, std::size_t width,
-                   const std::stop_token& stop) {
-  Pace pace(stop);
-  make_room(out, values.size() * width, stop);
+void little_endian(std::string& out, std::span<const std::int32_t> values, std::size_t width) {
+  Pace pace;
   for (const auto v : values) {
     pace.turn();
     char bytes[4];
@@ -56,7 +54,7 @@ void little_endian(std::string& out, std::span<const std::int32_t> values, std::
 
 void CborWriter::typed_array(std::span<const std::int32_t> values) {
   begin_item();
-  Pace pace(stop_);
+  Pace pace;
   const bool small = std::ranges::all_of(values, [&pace](std::int32_t v) {
     pace.turn();
     return v == static_cast<std::int16_t>(v);
@@ -64,7 +62,7 @@ void CborWriter::typed_array(std::span<const std::int32_t> values) {
   const std::size_t width = small ? 2 : 4;
   head(out_, Major::tag, small ? kInt16LittleEndian : kInt32LittleEndian);
   head(out_, Major::bytes, values.size() * width);
-  little_endian(out_, values, width, stop_);
+  little_endian(out_, values, width);
 }
 
 void CborWriter::null() {
@@ -97,17 +95,16 @@ void CborWriter::number(double v) {
 void CborWriter::text(std::string_view v) {
   begin_item();
   head(out_, Major::text, v.size());
-  append(out_, v, stop_);
+  out_ += v;
 }
 
 void CborWriter::raw(std::string_view item) {
   begin_item();
-  append(out_, item, stop_);
+  out_ += item;
 }
 
 void CborWriter::key(std::string_view name) {
   ++frames_.back().items;
-  make_room(out_, kHeadBytes + name.size(), stop_);
   head(out_, Major::text, name.size());
   out_ += name;
   key_ = name;
@@ -137,11 +134,11 @@ std::string CborWriter::take() {
   whole.reserve(out_.size() + 8 * rests_.size());
   std::size_t at = 0;
   for (const auto& rest : rests_) {
-    append(whole, std::string_view(out_).substr(at, rest.at - at), stop_);
+    whole += std::string_view(out_).substr(at, rest.at - at);
     whole += rest.bytes;
     at = rest.at;
   }
-  append(whole, std::string_view(out_).substr(at), stop_);
+  whole += std::string_view(out_).substr(at);
   return whole;
 }
 

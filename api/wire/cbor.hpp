@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,8 +17,6 @@ namespace tubecut::api {
 /// 78, int32, if a value does not fit). Throws Stopped if cancelled.
 class CborWriter {
  public:
-  explicit CborWriter(std::stop_token stop = {}) : stop_(std::move(stop)) {}
-
   void null();
   void boolean(bool v);
   void integer(std::int64_t v);
@@ -54,11 +51,9 @@ class CborWriter {
 
   static constexpr std::size_t kHeadBytes = 9;  // at most, of an item
   void begin_item() {
-    make_room(out_, kHeadBytes, stop_);
     if (!frames_.empty() && !frames_.back().object) ++frames_.back().items;
   }
 
-  std::stop_token stop_;
   std::vector<Frame> frames_;
   std::vector<Rest> rests_;
   std::string key_;

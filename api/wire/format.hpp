@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -75,7 +74,6 @@ struct Caption {
   FormatOptions options = {};
   Verdict verdict = {};           // for the head of every file: verdict_lines
   const Json* request = nullptr;  // with defaults applied
-  std::stop_token stop = {};
 };
 
 /// Thrown by a format that does not support a given option, because no option is ignored without a

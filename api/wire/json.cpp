@@ -27,12 +27,11 @@ struct Progress {
   const char* at;
   const char* ask_at;
   const char* end;
-  const std::stop_token& stop;
 
   void reach(const char* place) {
     at = place;
     if (at < ask_at) return;
-    ask(stop);
+    ask();
     ask_at = at + kAskEvery;
   }
 };
@@ -183,7 +182,7 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
     stack_.pop_back();
     // One by one: a long object's, freed at once, would keep a stop waiting.
     for (auto& keys = keys_.back(); keys.size() > kLong; keys.erase(keys.begin()))
-      if (keys.size() % 1024 == 0) ask(progress_->stop);
+      if (keys.size() % 1024 == 0) ask();
     keys_.pop_back();
     numbers_.pop_back();
     return put(std::move(done));
@@ -210,8 +209,6 @@ std::string escaped(std::string_view name) {
 /// Follows the parser's position to the first number that no double holds.
 class NumberFinder final : public nlohmann::json_sax<nlohmann::json> {
  public:
-  explicit NumberFinder(const std::stop_token& stop) : pace_(stop) {}
-
   [[nodiscard]] const std::optional<BadNumber>& found() const { return found_; }
 
   bool null() override { return next(); }
@@ -345,7 +342,7 @@ tl::expected<Json, ParseError> parse(std::string_view bytes, const ParseLimits& 
   if (const auto nul = bytes.find('\0'); nul != std::string_view::npos)
     return tl::make_unexpected(ParseError{nul, "NUL byte"});
   const char* const begin = bytes.data();
-  Progress progress{.at = begin, .ask_at = begin, .end = begin + bytes.size(), .stop = limits.stop};
+  Progress progress{.at = begin, .ask_at = begin, .end = begin + bytes.size()};
   Builder builder(limits.depth, begin, &progress);
   const bool ok =
       nlohmann::json::sax_parse(CountingIterator(begin, &progress),
@@ -354,8 +351,8 @@ tl::expected<Json, ParseError> parse(std::string_view bytes, const ParseLimits& 
   return builder.take();
 }
 
-std::optional<BadNumber> find_bad_number(std::string_view json, const std::stop_token& stop) {
-  NumberFinder finder(stop);
+std::optional<BadNumber> find_bad_number(std::string_view json) {
+  NumberFinder finder;
   nlohmann::json::sax_parse(json.begin(), json.end(), &finder);
   return finder.found();
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -52,7 +51,6 @@ struct ParseError {
 
 struct ParseLimits {
   std::size_t depth = 32;
-  std::stop_token stop = {};
 };
 
 /// Strict RFC 8259: UTF-8 without BOM, one document, no duplicate keys, no lone surrogates, depth

@@ -24,8 +24,8 @@ std::optional<NumberFault> number_fault(double value, std::string_view text) {
   return std::nullopt;
 }
 
-std::optional<FieldIssue> number_issue(std::string_view json, const std::stop_token& stop) {
-  auto bad = find_bad_number(json, stop);
+std::optional<FieldIssue> number_issue(std::string_view json) {
+  auto bad = find_bad_number(json);
   if (!bad) return std::nullopt;
   auto& text = bad->text;
   if (text.size() > kShown) text = text.substr(0, kShown) + "...";

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -24,12 +23,10 @@ struct BadNumber {
   NumberFault fault = {};
 };
 /// Returns the first of them, or nothing if the text ends or has an error before it.
-[[nodiscard]] std::optional<BadNumber> find_bad_number(std::string_view json,
-                                                       const std::stop_token& stop);
+[[nodiscard]] std::optional<BadNumber> find_bad_number(std::string_view json);
 
 /// Returns the first number of a JSON text that no double holds, as an issue of its field
 /// (out_of_range). Nothing if the text ends or has an error before it.
-[[nodiscard]] std::optional<FieldIssue> number_issue(std::string_view json,
-                                                     const std::stop_token& stop = {});
+[[nodiscard]] std::optional<FieldIssue> number_issue(std::string_view json);
 
 }  // namespace tubecut::api

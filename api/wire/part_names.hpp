@@ -16,7 +16,8 @@ template <>
 inline constexpr auto kNames<part::Mark::Kind> =
     std::to_array<Option<part::Mark::Kind>>({{"datum_line", part::Mark::Kind::datum_line},
                                              {"part_mark", part::Mark::Kind::part_mark},
-                                             {"partner", part::Mark::Kind::partner}});
+                                             {"partner", part::Mark::Kind::partner},
+                                             {"text", part::Mark::Kind::text}});
 template <>
 inline constexpr auto kNames<part::Step::What> =
     std::to_array<Option<part::Step::What>>({{"mark", part::Step::What::mark},

@@ -159,10 +159,9 @@ Problem core_problem(const Error& error, const Json& request) {
   return out;
 }
 
-std::vector<std::string> filled_in(const Json& body, const Json& request,
-                                   const std::stop_token& stop) {
+std::vector<std::string> filled_in(const Json& body, const Json& request) {
   std::vector<std::string> out;
-  Pace pace(stop);
+  Pace pace;
   const auto walk = [&](const auto& self, const Json& given, const Json& understood,
                         const std::string& pointer) -> void {
     if (const auto* object = understood.as<Json::Object>()) {
@@ -219,8 +218,8 @@ std::optional<Problem> failed_check(const std::vector<Check>& checks) {
   return std::nullopt;
 }
 
-Problem with_suspicions(Problem problem, const Json& request, const std::stop_token& stop) {
-  problem.suspicions = unit_suspicions(request, stop);
+Problem with_suspicions(Problem problem, const Json& request) {
+  problem.suspicions = unit_suspicions(request);
   for (auto& suspicion : problem.suspicions)
     suspicion.member = pointer_of(suspicion.member, request);
   return problem;

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -44,8 +43,7 @@ struct Problem {
 
 /// Returns pointers to the objects and arrays that the request with defaults has and the body has
 /// not.
-[[nodiscard]] std::vector<std::string> filled_in(const Json& body, const Json& request,
-                                                 const std::stop_token& stop);
+[[nodiscard]] std::vector<std::string> filled_in(const Json& body, const Json& request);
 
 /// Returns the same problem; pointers into one of these places become pointers to the place.
 [[nodiscard]] Problem pointing_no_further(Problem problem, const std::vector<std::string>& places);
@@ -60,8 +58,7 @@ void keep_worst(std::vector<Check>& worst, const std::vector<Check>& checks);
 [[nodiscard]] std::string pointer_of(std::string_view member, const Json& request);
 
 /// Returns the same problem, with the units in which the request's numbers would be plausible.
-[[nodiscard]] Problem with_suspicions(Problem problem, const Json& request,
-                                      const std::stop_token& stop);
+[[nodiscard]] Problem with_suspicions(Problem problem, const Json& request);
 
 /// Member `warnings` of an answer or a problem; `pointer` makes one of a warning's member.
 void write_warnings(Writer& w, const std::vector<Warning>& warnings,

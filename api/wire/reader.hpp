@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -172,7 +171,7 @@ class Reader {
     if (items == nullptr) return out;
     Json::Array echoes;
     for (std::size_t i = 0; i < items->size(); ++i) {
-      ask(pace_.stop());
+      ask();
       const auto step = std::string(name) + "/" + std::to_string(i);
       if ((*items)[i].template as<Json::Object>() == nullptr) {
         issue({.code = ErrorCode::wrong_type, .pointer = step, .hint = "an object is required"},
@@ -209,9 +208,6 @@ class Reader {
   /// Whether the answer goes out in a binary format, which may be longer. Set at the root.
   void set_binary(bool binary) { binary_ = binary; }
   [[nodiscard]] bool binary() const { return binary_; }
-  /// Reading throws Stopped if a stop is requested. Set at the root.
-  void set_stop(std::stop_token stop) { pace_ = Pace(std::move(stop)); }
-  [[nodiscard]] const std::stop_token& stop() const { return pace_.stop(); }
 
  private:
   Reader(const Json& body, std::string pointer, std::vector<FieldIssue>* issues)

@@ -42,11 +42,11 @@ std::string Sha256::hex() {
   return out;
 }
 
-std::string sha256(std::string_view bytes, const std::stop_token& stop) {
+std::string sha256(std::string_view bytes) {
   constexpr std::size_t kAtOnce = 256u << 10;
   Sha256 out;
   for (std::size_t at = 0; at < bytes.size(); at += kAtOnce) {
-    ask(stop);
+    ask();
     out.add(bytes.substr(at, kAtOnce));
   }
   return out.hex();

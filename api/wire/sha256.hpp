@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -22,6 +21,6 @@ class Sha256 {
 };
 
 /// sha256 in lower-case hex. Throws Stopped.
-[[nodiscard]] std::string sha256(std::string_view bytes, const std::stop_token& stop = {});
+[[nodiscard]] std::string sha256(std::string_view bytes);
 
 }  // namespace tubecut::api

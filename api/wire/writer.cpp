@@ -11,11 +11,10 @@ namespace tubecut::api {
 namespace {
 
 /// Returns the values if all are 32-bit integers.
-std::optional<std::vector<std::int32_t>> counts_of(const Json::Array& values,
-                                                   const std::stop_token& stop) {
+std::optional<std::vector<std::int32_t>> counts_of(const Json::Array& values) {
   std::vector<std::int32_t> out;
   out.reserve(values.size());
-  Pace pace(stop);
+  Pace pace;
   for (const auto& value : values) {
     pace.turn();
     const auto* number = value.as<double>();
@@ -29,23 +28,20 @@ std::optional<std::vector<std::int32_t>> counts_of(const Json::Array& values,
 
 }  // namespace
 
-Writer::Writer(std::size_t reserve, std::stop_token stop, Encoding encoding)
-    : pace_(std::move(stop)) {
+Writer::Writer(std::size_t reserve, Encoding encoding) {
   if (encoding == Encoding::cbor)
-    cbor_.emplace(pace_.stop());
+    cbor_.emplace();
   else
     out_.reserve(reserve);
 }
 
-Writer Writer::hashing(std::stop_token stop) {
-  Writer out(2 * kHashed, std::move(stop));
+Writer Writer::hashing() {
+  Writer out(2 * kHashed);
   out.hash_.emplace();
   return out;
 }
 
-Writer Writer::part() const {
-  return Writer(0, pace_.stop(), cbor_ ? Encoding::cbor : Encoding::json);
-}
+Writer Writer::part() const { return Writer(0, cbor_ ? Encoding::cbor : Encoding::json); }
 
 void Writer::hash_so_far() {
   hash_->add(out_);
@@ -53,7 +49,7 @@ void Writer::hash_so_far() {
 }
 
 std::string Writer::sha256() {
-  if (!hash_) return api::sha256(out_, pace_.stop());
+  if (!hash_) return api::sha256(out_);
   hash_so_far();
   return hash_->hex();
 }
@@ -74,7 +70,7 @@ void Writer::put(Writer part) {
     cut.to += out_.size();
     if (!hash_) cuts_.push_back(cut);
   }
-  append(out_, part.out_, pace_.stop());
+  out_ += part.out_;
   fresh_ = false;
 }
 
@@ -84,11 +80,11 @@ std::string Writer::take() {
   std::string seen;
   std::size_t at = 0;
   for (const auto& cut : cuts_) {
-    append(seen, std::string_view(out_).substr(at, cut.from - at), pace_.stop());
+    seen += std::string_view(out_).substr(at, cut.from - at);
     at = cut.to;
     if (cut.first && out_[at] == ',') ++at;
   }
-  append(seen, std::string_view(out_).substr(at), pace_.stop());
+  seen += std::string_view(out_).substr(at);
   return seen;
 }
 
@@ -159,7 +155,7 @@ void Writer::json(const Json& of) {
     value(std::string_view(*s));
   } else if (const auto* a = of.as<Json::Array>()) {
     if (cbor_ && cbor_->in_counts())
-      if (const auto counts = counts_of(*a, pace_.stop())) return cbor_->typed_array(*counts);
+      if (const auto counts = counts_of(*a)) return cbor_->typed_array(*counts);
     list(*a, [this](const Json& item) { json(item); });
   } else if (const auto* o = of.as<Json::Object>()) {
     object([o](Writer& w) {
@@ -189,11 +185,10 @@ void Writer::straight(const Values& values, F print) {
   constexpr std::size_t kAtOnce = 256;
   out_ += '[';
   for (std::size_t i = 0; i < values.size();) {
-    ask(pace_.stop());
+    ask();
     if (out_.size() >= kHashed && hash_) hash_so_far();
     const std::size_t end = std::min(values.size(), i + kAtOnce);
     const std::size_t before = out_.size(), most = (end - i) * (kNumberBytes + 1);
-    make_room(out_, most, pace_.stop());
     out_.resize(before + most);
     char* to = out_.data() + before;
     for (; i < end; ++i) {
@@ -253,12 +248,12 @@ void Writer::flags(std::string_view name, const std::vector<bool>& values) {
 void Writer::raw(std::string_view name, std::string_view encoded) {
   key(name);
   if (cbor_) return cbor_->raw(encoded);
-  append(out_, encoded, pace_.stop());
+  out_ += encoded;
   fresh_ = false;
 }
 
-std::string dump(const Json& json, const std::stop_token& stop) {
-  Writer out(256, stop);
+std::string dump(const Json& json) {
+  Writer out(256);
   out.json(json);
   return out.take();
 }

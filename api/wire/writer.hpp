@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,11 +28,10 @@ class Writer {
     using std::runtime_error::runtime_error;
   };
 
-  explicit Writer(std::size_t reserve = 4096, std::stop_token stop = {},
-                  Encoding encoding = Encoding::json);
+  explicit Writer(std::size_t reserve = 4096, Encoding encoding = Encoding::json);
 
   /// Returns a writer of JSON that keeps only its sha256.
-  static Writer hashing(std::stop_token stop);
+  static Writer hashing();
 
   template <class F>
   void object(F body) {
@@ -111,7 +109,6 @@ class Writer {
   void separate() {
     pace_.turn();
     if (out_.size() >= kHashed && hash_) hash_so_far();
-    if (!cbor_) make_room(out_, kItemBytes, pace_.stop());
     if (!fresh_ && !cbor_) out_ += ',';
     fresh_ = false;
   }
@@ -155,6 +152,6 @@ class Writer {
 };
 
 /// The document as JSON.
-[[nodiscard]] std::string dump(const Json& json, const std::stop_token& stop = {});
+[[nodiscard]] std::string dump(const Json& json);
 
 }  // namespace tubecut::api

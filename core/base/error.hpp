@@ -61,6 +61,7 @@ struct Warning {
   WarningCode code = WarningCode::cutter_missed;
   std::string member = {};
   std::string detail = {};
+  double most = 0.0;  // the value of the detail, if warnings of the code are compared by it
 };
 
 /// One check of an answer: `value` must not exceed `limit`; either may be below zero.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/cutoff/fits.hpp"
 
@@ -132,8 +133,7 @@ void round_coefficients(const WorkFeed& work, Command& out) {
 }
 
 Result<ChebyshevSeries> fit(const WorkFeed& work, FitMethod method, int degree,
-                            const std::optional<std::array<double, 3>>& nodes,
-                            std::stop_token stop) {
+                            const std::optional<std::array<double, 3>>& nodes) {
   switch (method) {
     case FitMethod::three_point:
       return three_point(work, nodes);
@@ -145,12 +145,12 @@ Result<ChebyshevSeries> fit(const WorkFeed& work, FitMethod method, int degree,
     case FitMethod::automatic:
       break;
   }
-  return minimax(work, degree, stop);
+  return minimax(work, degree);
 }
 
 Result<ChebyshevSeries> shifted_fit(const WorkFeed& work, const FitSpec& spec, FitMethod method,
-                                    int degree, std::stop_token stop) {
-  auto series = fit(work, method, degree, spec.nodes, stop);
+                                    int degree) {
+  auto series = fit(work, method, degree, spec.nodes);
   if (!series || !spec.preserve_stroke) return series;
   const auto& w = work.work();
   const double integral = math::value(math::antiderivative(*series), w.duration);
@@ -172,9 +172,9 @@ Command describe(const WorkFeed& work, FitMethod method, const ChebyshevSeries& 
   return out;
 }
 
-Result<Command> automatic(const WorkFeed& work, const FitSpec& spec, std::stop_token stop) {
+Result<Command> automatic(const WorkFeed& work, const FitSpec& spec) {
   for (int degree = 1; degree <= kHighestDegree; ++degree) {
-    TRY(const auto series, shifted_fit(work, spec, FitMethod::minimax, degree, stop));
+    TRY(const auto series, shifted_fit(work, spec, FitMethod::minimax, degree));
     const auto errors = assess(work, series);
     if (errors && errors->max_relative_error <= spec.tolerance)
       return describe(work, FitMethod::minimax, series, *errors);
@@ -204,16 +204,15 @@ Result<void> check(const FitSpec& spec) {
 
 }  // namespace
 
-Result<Command> command(const WorkFeed& work, const FitSpec& spec, std::stop_token stop) {
+Result<Command> command(const WorkFeed& work, const FitSpec& spec) {
   TRY(check(spec));
-  if (spec.method == FitMethod::automatic) return automatic(work, spec, stop);
-  TRY(const auto series, shifted_fit(work, spec, spec.method, spec.degree, stop));
+  if (spec.method == FitMethod::automatic) return automatic(work, spec);
+  TRY(const auto series, shifted_fit(work, spec, spec.method, spec.degree));
   TRY(const auto errors, assess(work, series));
   return describe(work, spec.method, series, errors);
 }
 
-Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSpec& spec,
-                                        std::stop_token stop) {
+Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSpec& spec) {
   if (spec.first_degree < 1 || spec.last_degree > kHighestDegree ||
       spec.first_degree > spec.last_degree)
     return fail({.code = ErrorCode::out_of_range,
@@ -225,8 +224,8 @@ Result<std::vector<Command>> comparison(const WorkFeed& work, const ComparisonSp
   for (int degree = spec.first_degree; degree <= spec.last_degree; ++degree)
     for (const FitMethod method : kMethods) {
       if (method == FitMethod::three_point && degree != 2) continue;
-      if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-      TRY(const auto series, fit(work, method, degree, std::nullopt, stop));
+      if (stopped()) return fail({.code = ErrorCode::cancelled});
+      TRY(const auto series, fit(work, method, degree, std::nullopt));
       if (const auto errors = assess(work, series))
         rows.push_back(describe(work, method, series, *errors));
     }

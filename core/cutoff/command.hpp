@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -71,13 +70,11 @@ struct ComparisonSpec {
 ///           seen 5e-6).
 /// Cost      some 10 passes over 1601 points.
 /// Source    docs/theory/feed-curves.md, section 4.
-[[nodiscard]] Result<Command> command(const WorkFeed& work, const FitSpec& spec,
-                                      std::stop_token stop = {});
+[[nodiscard]] Result<Command> command(const WorkFeed& work, const FitSpec& spec);
 
 /// Computes the four methods at each degree (three_point only at 2), rows by degree, then method.
 /// If a command leaves the linkage's range, it has no row.
 [[nodiscard]] Result<std::vector<Command>> comparison(const WorkFeed& work,
-                                                      const ComparisonSpec& spec,
-                                                      std::stop_token stop = {});
+                                                      const ComparisonSpec& spec);
 
 }  // namespace tubecut::cutoff

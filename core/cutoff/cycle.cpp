@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/cutoff/preconditions.hpp"
 #include "core/math/search.hpp"
@@ -179,7 +180,7 @@ void push(CycleSamples& to, double time, const CylinderState& state, double feed
 }
 
 Result<CycleSamples> sample(const WorkFeed& work, const Cycle& c, const std::vector<Phase>& motion,
-                            double period, std::stop_token stop) {
+                            double period) {
   const double count = std::ceil(c.end / period) + 1.0;
   if (!(count <= static_cast<double>(kMostSamples)))
     return fail({.code = ErrorCode::too_many_samples,
@@ -195,7 +196,7 @@ Result<CycleSamples> sample(const WorkFeed& work, const Cycle& c, const std::vec
   StrokeCursor cursor(work.mechanism());
   std::size_t now = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    if (i % kStopEvery == 0 && stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (i % kStopEvery == 0 && stopped()) return fail({.code = ErrorCode::cancelled});
     const double time = std::min(static_cast<double>(i) * period, c.end);
     while (now + 1 < motion.size() && motion[now + 1].start <= time) ++now;
     if (motion[now].start >= c.work_start && time >= c.work_start && time <= c.work_end) {
@@ -212,7 +213,7 @@ Result<CycleSamples> sample(const WorkFeed& work, const Cycle& c, const std::vec
 
 }  // namespace
 
-Result<Cycle> cycle(const WorkFeed& work, const CycleSpec& spec, std::stop_token stop) {
+Result<Cycle> cycle(const WorkFeed& work, const CycleSpec& spec) {
   TRY(check(spec));
   const Window window = window_of(work);
   const double v = work.work().feed;
@@ -236,7 +237,7 @@ Result<Cycle> cycle(const WorkFeed& work, const CycleSpec& spec, std::stop_token
   if (spec.target) out.target = target_of(window, spec, out, v);
   const auto motion =
       phases_of(planned, out, work.work().start_stroke, work.work().end_stroke, spec);
-  TRY(out.samples, sample(work, out, motion, spec.period, stop));
+  TRY(out.samples, sample(work, out, motion, spec.period));
   return out;
 }
 

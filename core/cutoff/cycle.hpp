@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -73,7 +72,6 @@ struct Cycle {
 ///           sample is exactly at rest.
 /// Cost      one inverse or forward map a sample.
 /// Source    docs/theory/feed-curves.md, section 5.
-[[nodiscard]] Result<Cycle> cycle(const WorkFeed& work, const CycleSpec& spec,
-                                  std::stop_token stop = {});
+[[nodiscard]] Result<Cycle> cycle(const WorkFeed& work, const CycleSpec& spec);
 
 }  // namespace tubecut::cutoff

@@ -93,19 +93,19 @@ Warning missed(const Cycle& cycle, double target) {
 
 }  // namespace
 
-Result<FeedCurve> feed_curve(const FeedCurveSpec& spec, std::stop_token stop) {
+Result<FeedCurve> feed_curve(const FeedCurveSpec& spec) {
   TRY(const auto mechanism, Mechanism::make(spec.linkage));
   if (spec.tube) TRY(check_tube(*spec.tube));
   TRY(const auto work, WorkFeed::make(mechanism, spec.cut));
   FeedCurve out{.geometry = mechanism.geometry(), .work = work.work()};
   TRY(out.table, std::visit([&](const auto& by) { return tabulate(work, by); }, spec.table));
-  TRY(out.fit, command(work, spec.fit, stop));
+  TRY(out.fit, command(work, spec.fit));
   out.warnings = warnings_of(spec, out.work);
   if (spec.comparison) {
-    TRY(out.comparison, comparison(work, *spec.comparison, stop));
+    TRY(out.comparison, comparison(work, *spec.comparison));
   }
   if (spec.cycle) {
-    TRY(out.cycle, cycle(work, *spec.cycle, stop));
+    TRY(out.cycle, cycle(work, *spec.cycle));
     if (out.cycle->target && !out.cycle->target->met)
       out.warnings.push_back(missed(*out.cycle, *spec.cycle->target));
   }

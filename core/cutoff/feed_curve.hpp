@@ -14,7 +14,6 @@
 //     const double error = curve.fit.errors.max_relative_error;  // 0.0021
 
 #include <optional>
-#include <stop_token>
 #include <variant>
 #include <vector>
 
@@ -80,6 +79,6 @@ inline constexpr double kMostTableRows = 100'000.0;
 ///           cut's).
 /// Accuracy  strokes and speeds 1e-12 relative, accelerations 1e-12 of their largest value.
 /// Cost      under 1 us a table row or servo sample, some 3 ms a fit.
-[[nodiscard]] Result<FeedCurve> feed_curve(const FeedCurveSpec& spec, std::stop_token stop = {});
+[[nodiscard]] Result<FeedCurve> feed_curve(const FeedCurveSpec& spec);
 
 }  // namespace tubecut::cutoff

@@ -61,8 +61,8 @@ math::ChebyshevSeries least_squares(const WorkFeed& work, int degree) {
   return math::chebyshev_interpolant(projection, degree, 0.0, duration);
 }
 
-Result<math::ChebyshevSeries> minimax(const WorkFeed& work, int degree, std::stop_token stop) {
-  TRY(auto found, math::relative_minimax(work.speed(), degree, stop));
+Result<math::ChebyshevSeries> minimax(const WorkFeed& work, int degree) {
+  TRY(auto found, math::relative_minimax(work.speed(), degree));
   return std::move(found.series);
 }
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <stop_token>
 
 #include "core/cutoff/work_feed.hpp"
 #include "core/math/chebyshev.hpp"
@@ -26,7 +25,6 @@ namespace tubecut::cutoff {
 
 /// Minimises the largest relative error.
 /// Errors    not_converged, cancelled.
-[[nodiscard]] Result<math::ChebyshevSeries> minimax(const WorkFeed& work, int degree,
-                                                    std::stop_token stop);
+[[nodiscard]] Result<math::ChebyshevSeries> minimax(const WorkFeed& work, int degree);
 
 }  // namespace tubecut::cutoff

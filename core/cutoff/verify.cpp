@@ -6,6 +6,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/cutoff/verify_parts.hpp"
 #include "core/math/search.hpp"
 
@@ -48,7 +49,7 @@ void verify_geometry(const FeedCurveSpec& spec, const FeedCurve& curve, const Ar
 }
 
 void verify_table(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip& tip,
-                  const std::stop_token& stop, std::vector<Check>& checks) {
+                  std::vector<Check>& checks) {
   const auto& t = curve.table;
   const auto& w = curve.work;
   const double v = w.feed;
@@ -57,7 +58,7 @@ void verify_table(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTi
   double speed = 0.0;
   double acceleration = 0.0;
   double pace = ratio(t.time.back(), w.duration) + std::abs(t.time.front()) / w.duration;
-  for (std::size_t i = 0; i < t.time.size() && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < t.time.size() && !stopped(); ++i) {
     const TipFeed here = tip.at(t.stroke[i]);
     const double cube = here.first * here.first * here.first;
     worsen(feed, std::abs(here.feed - t.feed[i]) / feed_scale(spec.linkage, here));
@@ -111,14 +112,13 @@ void verify_tool(const FeedCurveSpec& spec, const FeedCurve& curve, std::vector<
 
 }  // namespace
 
-std::vector<Check> verify(const FeedCurveSpec& spec, const FeedCurve& curve,
-                          const std::stop_token& stop) {
+std::vector<Check> verify(const FeedCurveSpec& spec, const FeedCurve& curve) {
   const ArmTip tip(spec.linkage, curve.geometry.rad_per_mm);
   std::vector<Check> checks;
   verify_geometry(spec, curve, tip, checks);
-  verify_table(spec, curve, tip, stop, checks);
+  verify_table(spec, curve, tip, checks);
   verify_command(spec, curve, tip, checks);
-  if (curve.cycle) verify_cycle(spec, curve, tip, stop, checks);
+  if (curve.cycle) verify_cycle(spec, curve, tip, checks);
   if (curve.tool) verify_tool(spec, curve, checks);
   return checks;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -40,7 +39,6 @@ inline constexpr double kWallCut =
 ///
 /// Cost      about that of the answer.
 /// Source    docs/theory/feed-curves.md, sections 2 to 6.
-[[nodiscard]] std::vector<Check> verify(const FeedCurveSpec& spec, const FeedCurve& curve,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Check> verify(const FeedCurveSpec& spec, const FeedCurve& curve);
 
 }  // namespace tubecut::cutoff

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/cutoff/verify_parts.hpp"
 
 namespace tubecut::cutoff {
@@ -25,14 +26,14 @@ struct Steps {
   double acceleration = 0.0;  // difference of the accelerations
 };
 
-Steps steps_of(const CycleSpec& spec, const Cycle& c, const std::stop_token& stop) {
+Steps steps_of(const CycleSpec& spec, const Cycle& c) {
   const auto& s = c.samples;
   const double j = spec.max_cylinder_jerk;
   const double round_stroke = kRounding * largest(s.stroke);
   const double round_speed = kRounding * spec.max_cylinder_speed;
   Steps out;
   for (std::size_t i = 1; i < s.time.size(); ++i) {
-    if (i % 1024 == 0 && stop.stop_requested()) break;
+    if (i % 1024 == 0 && stopped()) break;
     const double h = s.time[i] - s.time[i - 1];
     const auto inside = [&](double t) { return s.time[i - 1] <= t && t <= s.time[i]; };
     const double jump = (inside(c.work_start) ? c.acceleration_step_in : 0.0) +
@@ -52,7 +53,7 @@ Steps steps_of(const CycleSpec& spec, const Cycle& c, const std::stop_token& sto
 }
 
 void push_feeds(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip& tip,
-                const std::stop_token& stop, std::vector<Check>& checks) {
+                std::vector<Check>& checks) {
   const auto& c = *curve.cycle;
   const auto& s = c.samples;
   const TipFeed deepest = tip.at(c.stop_stroke);
@@ -62,7 +63,7 @@ void push_feeds(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip&
   double speed = 0.0;
   double fastest =
       curve.work.feed;  // at least the work feed, because a coarse period may skip every motion
-  for (std::size_t i = 0; i < s.time.size() && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < s.time.size() && !stopped(); ++i) {
     const TipFeed here = tip.at(s.stroke[i]);
     worsen(feed, std::abs(here.feed - s.feed[i]));
     // Near the tangent's pole the derivative loses digits as 1/cos psi.
@@ -99,7 +100,7 @@ void push_times(const CycleSpec& spec, const FeedCurve& curve, std::vector<Check
 }  // namespace
 
 void verify_cycle(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip& tip,
-                  const std::stop_token& stop, std::vector<Check>& checks) {
+                  std::vector<Check>& checks) {
   const auto& limits = *spec.cycle;
   const auto& s = curve.cycle->samples;
   checks.push_back(
@@ -107,7 +108,7 @@ void verify_cycle(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTi
   checks.push_back({"cycle_acceleration",
                     largest(s.acceleration) / limits.max_cylinder_acceleration - 1.0,
                     limit::kCycleLimit, ""});
-  const Steps steps = steps_of(limits, *curve.cycle, stop);
+  const Steps steps = steps_of(limits, *curve.cycle);
   checks.push_back({"cycle_jerk", steps.acceleration, limit::kCycleStep, ""});
   checks.push_back({"cycle_speed_steps", steps.speed, limit::kCycleStep, ""});
   checks.push_back({"cycle_stroke_steps", steps.stroke, limit::kCycleStep, ""});
@@ -115,7 +116,7 @@ void verify_cycle(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTi
     checks.push_back({"cycle_max_feed",
                       worst_of({largest(s.feed), curve.cycle->stop_feed}) / *limits.max_feed - 1.0,
                       limit::kCycleLimit, ""});
-  push_feeds(spec, curve, tip, stop, checks);
+  push_feeds(spec, curve, tip, checks);
   push_times(limits, curve, checks);
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <vector>
 
 #include "core/cutoff/arm_tip.hpp"
@@ -12,7 +11,7 @@ namespace tubecut::cutoff {
 void verify_command(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip& tip,
                     std::vector<Check>& checks);
 void verify_cycle(const FeedCurveSpec& spec, const FeedCurve& curve, const ArmTip& tip,
-                  const std::stop_token& stop, std::vector<Check>& checks);
+                  std::vector<Check>& checks);
 
 /// Returns the scale of a feed at a position of the linkage: |x| + A/cos^2 psi.
 [[nodiscard]] inline double feed_scale(const Linkage& linkage, const TipFeed& here) {

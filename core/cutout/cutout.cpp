@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include "core/base/elementary.hpp"
@@ -31,13 +33,6 @@ struct LeastSize {
   std::optional<double> operator()(const Rectangle& r) const { return std::min(r.along, r.round); }
   std::optional<double> operator()(const Contour&) const { return {}; }
 };
-
-double height(const Anchor& at, const Ground& ground) {
-  const bool tip = at.zero == Anchor::Zero::long_point;
-  if (at.from == Anchor::From::finish)
-    return (tip ? ground.finish_long : ground.finish_work) - at.z;
-  return (tip ? ground.start_long : ground.start_work) + at.z;
-}
 
 /// A prism's wall leans across; the torch's range says how far it may.
 Result<void> check_lean(const bevel::Hole& rows, const Ground& ground) {
@@ -98,6 +93,22 @@ Result<std::vector<std::size_t>> moulds_of(const Spec& spec, const Ground& groun
   return out;
 }
 
+/// If a file states the contour, the request has no piece to point at: points at the text, and
+/// states where the piece ends in the drawing.
+void point_at_file(const Spec& spec, std::vector<Issue>& issues) {
+  constexpr std::string_view kPieces = "shape/pieces/";
+  const auto* contour = std::get_if<Contour>(&spec.shape);
+  if (contour == nullptr || !contour->of_file) return;
+  for (auto& issue : issues) {
+    if (!issue.member.starts_with(kPieces)) continue;
+    const auto index = std::strtoul(issue.member.c_str() + kPieces.size(), nullptr, 10);
+    const auto& end = contour->pieces[std::min<std::size_t>(index, contour->pieces.size() - 1)].to;
+    issue.member = "shape/dxf";
+    issue.hint += " (the piece of the drawing that ends at " + brief(end.x()) + ", " +
+                  brief(end.y()) + " mm)";
+  }
+}
+
 Issue too_many(std::size_t asked, std::size_t count) {
   return {.code = ErrorCode::out_of_range,
           .member = path_of(asked) + "/pattern",
@@ -107,6 +118,13 @@ Issue too_many(std::size_t asked, std::size_t count) {
 }
 
 }  // namespace
+
+double height_of(const Anchor& at, const Ground& ground) {
+  const bool tip = at.zero == Anchor::Zero::long_point;
+  if (at.from == Anchor::From::finish)
+    return (tip ? ground.finish_long : ground.finish_work) - at.z;
+  return (tip ? ground.start_long : ground.start_work) + at.z;
+}
 
 std::string path_of(std::size_t asked) { return "cutouts/" + std::to_string(asked); }
 
@@ -127,6 +145,7 @@ Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground) {
   std::vector<Issue> issues;
   std::size_t count = 0, total = 0;
   const auto refuse = [&](std::size_t asked, Error error) {
+    point_at_file(specs[asked], error.issues);
     for (auto& issue : under(path_of(asked), std::move(error)).issues)
       issues.push_back(std::move(issue));
   };
@@ -144,7 +163,7 @@ Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground) {
     if (!all) refuse(k, std::move(all).error());
     if (!moulds || !all) continue;
     const auto first = out.instances.size();
-    const double z = height(spec.at, ground), phi = spec.at.phi + (spec.at.opposite ? kPi : 0.0);
+    const double z = height_of(spec.at, ground), phi = spec.at.phi + (spec.at.opposite ? kPi : 0.0);
     for (const auto& step : *all)
       for (const auto mould : *moulds) {
         const double here = math::whole_turn(phi + step.turn);

@@ -24,6 +24,7 @@ struct Contour {
   Flat start = Flat::Zero();
   std::vector<Piece> pieces;
   bool mirrored = false;
+  bool of_file = false;  // read from a DXF text: errors state places of the drawing, not pieces
 };
 using Shape = Variant<Circle, Slot, Rectangle, Contour>;
 
@@ -68,6 +69,9 @@ struct Ground {
   double tolerance = 0.01;       // see Cutting
   double most_lean = 0.5 * kPi;  // rad, of the torch across
 };
+
+/// Returns z of an anchor in the part's frame.
+[[nodiscard]] double height_of(const Anchor& at, const Ground& ground);
 
 inline constexpr std::size_t kMostCutouts = 2'000;
 inline constexpr std::size_t kMostRows = 200'000;

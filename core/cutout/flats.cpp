@@ -13,18 +13,6 @@ constexpr double kOnFlat = 1e-9;  // mm, by rounding
 
 int opposite(int face) { return (face + 1) % 4 + 1; }
 
-struct FacePlace {
-  int face;
-  double offset;  // from its middle
-};
-FacePlace place_of(const section::Curve& outer, const Anchor& at) {
-  if (at.face != 0) return {at.opposite ? opposite(at.face) : at.face, at.offset};
-  const auto here = outer.at((at.phi + (at.opposite ? kPi : 0.0)) / kTwoPi * outer.girth());
-  // On a corner: its way on the outside, so that it lies beyond the flat.
-  if (here.on_corner) return {here.face, outer.half_flat(here.face) + outer.corner() * here.along};
-  return {here.face, here.along};
-}
-
 /// Returns the anchor's share of a girth, rad; the far side's is half a turn further.
 double share_of(const section::Curve& curve, int face, double offset, bool far) {
   return curve.on_face(face, offset) / curve.girth() * kTwoPi - (far ? kPi : 0.0);
@@ -44,6 +32,14 @@ Across across(const Layout& layout, const Instance& one) {
 
 }  // namespace
 
+FacePlace face_place(const section::Curve& outer, const Anchor& at) {
+  if (at.face != 0) return {at.opposite ? opposite(at.face) : at.face, at.offset};
+  const auto here = outer.at((at.phi + (at.opposite ? kPi : 0.0)) / kTwoPi * outer.girth());
+  // On a corner: its way on the outside, so that it lies beyond the flat.
+  if (here.on_corner) return {here.face, outer.half_flat(here.face) + outer.corner() * here.along};
+  return {here.face, here.along};
+}
+
 double half_flat(const section::Wall& wall, int face) {
   return std::min(wall.outer().half_flat(face), wall.bore().half_flat(face));
 }
@@ -51,7 +47,7 @@ double half_flat(const section::Wall& wall, int face) {
 void put_on_face(const section::Wall& wall, const Anchor& at, const Step& step, bool far,
                  Instance& one) {
   const auto& outer = wall.outer();
-  auto [face, offset] = place_of(outer, at);
+  auto [face, offset] = face_place(outer, at);
   if (step.face) face = *step.face;
   offset += step.turn / kTwoPi * outer.girth();
   one.face = far ? opposite(face) : face;
@@ -63,7 +59,8 @@ void put_on_face(const section::Wall& wall, const Anchor& at, const Step& step, 
 std::optional<Issue> beyond_flat(const Spec& spec, const Layout& layout, std::size_t first,
                                  const section::Wall& wall) {
   if (const auto* faces = std::get_if<Faces>(&spec.pattern)) {
-    if (std::ranges::find(faces->faces, place_of(wall.outer(), spec.at).face) == faces->faces.end())
+    if (std::ranges::find(faces->faces, face_place(wall.outer(), spec.at).face) ==
+        faces->faces.end())
       return Issue{.code = ErrorCode::unsupported_combination,
                    .member = "pattern/faces",
                    .hint = "the face of the cut-out itself is one of them"};

@@ -7,6 +7,13 @@
 /// Cut-outs on the flats of a section.
 namespace tubecut::cutout {
 
+struct FacePlace {
+  int face;
+  double offset;  // mm from its middle, as s grows; beyond its flat on the corner that follows it
+};
+/// Returns the face of an anchor, or that before its corner.
+[[nodiscard]] FacePlace face_place(const section::Curve& outer, const Anchor& at);
+
 /// Places an instance, `step` from its anchor: its face and the offset there, its phases on the
 /// outside and on the bore. On the far side, it lies straight across.
 void put_on_face(const section::Wall& wall, const Anchor& at, const Step& step, bool far,

@@ -11,6 +11,7 @@ namespace {
 /// What is below its least.
 void at_least(double value, double least, bool equal, const char* member, const char* hint,
               std::vector<Issue>& out) {
+  if (!std::isfinite(least)) return;  // it reaches beyond the bore, which check_open reports
   const double slack = 1e-9 * least;
   if (equal ? value >= least - slack : value > least) return;
   out.push_back({.code = ErrorCode::out_of_range,
@@ -129,10 +130,11 @@ std::vector<Issue> check_open(const Chain& chain, const Laying& laying) {
   if (half < laying.inner()) return {};
   return {{.code = ErrorCode::open_profile,
            .member = "shape",
-           .got = half,
-           .limit = laying.inner(),
+           .got = 2.0 * half,
+           .limit = 2.0 * laying.inner(),
            .unit = "mm",
-           .hint = "it reaches beyond the bore at its side"}};
+           .hint = "across it reaches beyond the bore; lay it on the wall by wall developed, or "
+                   "make it less wide"}};
 }
 
 Flat deep_in(const Spec& spec, const Chain& chain) { return std::visit(Middle{chain}, spec.shape); }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/frame/alike_form.hpp"
 #include "core/frame/alike_match.hpp"
 #include "core/math/rotation.hpp"
@@ -104,8 +105,7 @@ class Gatherer::Known {
     walls_.resize(forms_.size());
   }
 
-  Result<std::vector<AlikeGroup>> groups(std::span<const Shape> shapes,
-                                         const std::stop_token& stop);
+  Result<std::vector<AlikeGroup>> groups(std::span<const Shape> shapes);
 
  private:
   using Column = std::vector<std::size_t>;  // indices of shapes, holes or marks
@@ -136,10 +136,9 @@ class Gatherer::Known {
            off <= 2.0 * within_ + kMeanOff + kMeanOffOfRadius * form->part->target.outer_radius;
   }
 
-  void gather(std::span<const Shape> shapes, Column rest, std::vector<AlikeGroup>& out,
-              const std::stop_token& stop);
-  std::optional<Laid> lay(const Shape& member, const Shape& by, const std::stop_token& stop);
-  Fit fit(const Side& member, const Side& by, const Laid& laid, const std::stop_token& stop);
+  void gather(std::span<const Shape> shapes, Column rest, std::vector<AlikeGroup>& out);
+  std::optional<Laid> lay(const Shape& member, const Shape& by);
+  Fit fit(const Side& member, const Side& by, const Laid& laid);
 
   std::vector<std::optional<Form>> forms_;
   std::vector<std::string> texts_;
@@ -150,16 +149,15 @@ class Gatherer::Known {
 };
 
 /// Compares every point of the member's turned wall with the same point of the other's wall.
-Gatherer::Known::Fit Gatherer::Known::fit(const Side& member, const Side& by, const Laid& laid,
-                                          const std::stop_token& stop) {
+Gatherer::Known::Fit Gatherer::Known::fit(const Side& member, const Side& by, const Laid& laid) {
   const Pair pair{member.shape.form, by.shape.form,
                   std::llround(laid.turn.rad() / detail::kSameTurn), laid.holes, laid.marks};
   if (const auto known = fits_.find(pair); known != fits_.end()) return known->second;
   auto& theirs = walls_[by.shape.form];
-  if (!theirs) theirs = detail::wall_of(by.form, {}, stop);
+  if (!theirs) theirs = detail::wall_of(by.form, {});
   const auto make = [&]() -> Fit {
     if (!*theirs) return {};
-    const auto own = detail::wall_of(member.form, laid.turn, stop);
+    const auto own = detail::wall_of(member.form, laid.turn);
     Ways ways;
     if (!own || !ways.add(own->ends, (*theirs)->ends)) return {};
     for (std::size_t i = 0; i < own->holes.size(); ++i)
@@ -171,12 +169,11 @@ Gatherer::Known::Fit Gatherer::Known::fit(const Side& member, const Side& by, co
     return {true, shift, differs};
   };
   const auto out = make();
-  if (!stop.stop_requested()) fits_.emplace(pair, out);
+  if (!stopped()) fits_.emplace(pair, out);
   return out;
 }
 
-std::optional<Laid> Gatherer::Known::lay(const Shape& member, const Shape& by,
-                                         const std::stop_token& stop) {
+std::optional<Laid> Gatherer::Known::lay(const Shape& member, const Shape& by) {
   if (member.form == by.form && member.start == by.start && member.finish == by.finish &&
       member.holes == by.holes && member.marks == by.marks) {
     Laid same;
@@ -196,7 +193,7 @@ std::optional<Laid> Gatherer::Known::lay(const Shape& member, const Shape& by,
   for (const double turn : stands ? std::vector{0.0} : detail::turns(one, two, within_)) {
     auto laid = detail::resembles(one, two, turn, within_);
     if (!laid) continue;
-    const auto found = fit(one, two, *laid, stop);
+    const auto found = fit(one, two, *laid);
     if (!found.there || !(found.differs <= within_)) continue;
     if (stands && std::abs(found.shift) > within_) continue;
     laid->shift = found.shift;
@@ -208,13 +205,13 @@ std::optional<Laid> Gatherer::Known::lay(const Shape& member, const Shape& by,
 
 /// Groups shapes that are near each other in length, given in their order.
 void Gatherer::Known::gather(std::span<const Shape> shapes, Column rest,
-                             std::vector<AlikeGroup>& out, const std::stop_token& stop) {
-  while (!rest.empty() && !stop.stop_requested()) {
+                             std::vector<AlikeGroup>& out) {
+  while (!rest.empty() && !stopped()) {
     AlikeGroup group{.by = rest[rest.size() / 2], .shapes = {}};
     Column others;
     for (const auto i : rest) {
-      if (stop.stop_requested()) return;
-      if (auto laid = lay(shapes[i], shapes[group.by], stop))
+      if (stopped()) return;
+      if (auto laid = lay(shapes[i], shapes[group.by]))
         group.shapes.emplace_back(i, *std::move(laid));
       else
         others.push_back(i);
@@ -225,8 +222,7 @@ void Gatherer::Known::gather(std::span<const Shape> shapes, Column rest,
   }
 }
 
-Result<std::vector<AlikeGroup>> Gatherer::Known::groups(std::span<const Shape> shapes,
-                                                        const std::stop_token& stop) {
+Result<std::vector<AlikeGroup>> Gatherer::Known::groups(std::span<const Shape> shapes) {
   std::map<std::vector<std::string>, Column> by_key;
   for (std::size_t i = 0; i < shapes.size(); ++i) by_key[key_of(shapes[i])].push_back(i);
   std::vector<AlikeGroup> out;
@@ -235,11 +231,11 @@ Result<std::vector<AlikeGroup>> Gatherer::Known::groups(std::span<const Shape> s
     Column chain;
     for (const auto i : all) {
       if (!chain.empty() && !near(shapes[chain.back()], shapes[i]))
-        gather(shapes, std::exchange(chain, {}), out, stop);
+        gather(shapes, std::exchange(chain, {}), out);
       chain.push_back(i);
     }
-    gather(shapes, std::move(chain), out, stop);
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    gather(shapes, std::move(chain), out);
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
   }
   return out;
 }
@@ -249,9 +245,8 @@ Gatherer::Gatherer(std::span<const AskedPart> forms, std::span<const std::string
     : known_(std::make_unique<Known>(forms, texts, within)) {}
 Gatherer::~Gatherer() = default;
 
-Result<std::vector<AlikeGroup>> Gatherer::groups(std::span<const Shape> shapes,
-                                                 const std::stop_token& stop) {
-  return known_->groups(shapes, stop);
+Result<std::vector<AlikeGroup>> Gatherer::groups(std::span<const Shape> shapes) {
+  return known_->groups(shapes);
 }
 
 }  // namespace tubecut::frame

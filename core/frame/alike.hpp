@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +25,7 @@ struct Shape {
   std::string key;       // the tube, and how both ends are cut
   std::vector<std::string> start, finish;  // of each partner
   std::vector<std::string> holes, marks;   // of each, with the part that is placed there
-  bool has_cutouts = false;  // they are in the key, so a part is only alike as it stands
+  bool has_cutouts = false;  // or texts; they are in the key, so a part is only alike as it stands
 };
 
 /// A part as requested. Of a tube that is not round, `section` is its outline, and the part's
@@ -77,8 +76,7 @@ class Gatherer {
   /// Errors  cancelled.
   /// Cost    about 2 ms for each end and hole of a form that another one resembles; 50 us for each
   ///         other form.
-  [[nodiscard]] Result<std::vector<AlikeGroup>> groups(std::span<const Shape> shapes,
-                                                       const std::stop_token& stop = {});
+  [[nodiscard]] Result<std::vector<AlikeGroup>> groups(std::span<const Shape> shapes);
 
  private:
   class Known;

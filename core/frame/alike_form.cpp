@@ -67,17 +67,17 @@ bool add_edges(const Result<Table>& table, std::optional<double> length, FormWal
 }
 
 bool add_end(const Form& form, const bevel::TableSpec& cut, Angle turn,
-             std::optional<double> length, FormWall& out, const std::stop_token& stop) {
+             std::optional<double> length, FormWall& out) {
   const auto asked = on_phases(cut, turn);
-  if (form.section) return add_edges(bevel::section_table(*form.section, asked, stop), length, out);
-  return add_edges(bevel::table(asked, stop), length, out);
+  if (form.section) return add_edges(bevel::section_table(*form.section, asked), length, out);
+  return add_edges(bevel::table(asked), length, out);
 }
 
-bool add_hole(bevel::HoleSpec asked, Angle turn, FormWall& out, const std::stop_token& stop) {
+bool add_hole(bevel::HoleSpec asked, Angle turn, FormWall& out) {
   asked.branch = joint::turned(asked.branch, turn);
   asked.sampling = {.uniform_points = kAlikePhases / 2};
   asked.kerf = 0.0;
-  const auto cut = bevel::hole(asked, stop);
+  const auto cut = bevel::hole(asked);
   if (!cut) return false;
   auto& lines = out.holes.emplace_back();
   for (const auto& hole : cut->holes) {
@@ -121,14 +121,14 @@ std::optional<Form> form_of(const AskedPart& asked) {
   return out;
 }
 
-std::optional<FormWall> wall_of(const Form& form, Angle turn, const std::stop_token& stop) {
+std::optional<FormWall> wall_of(const Form& form, Angle turn) {
   const auto& part = *form.part;
   FormWall out;
-  if (!add_end(form, part.start.cut, turn, {}, out, stop) ||
-      !add_end(form, part.finish.cut, -turn, part.target.length, out, stop))
+  if (!add_end(form, part.start.cut, turn, {}, out) ||
+      !add_end(form, part.finish.cut, -turn, part.target.length, out))
     return std::nullopt;
   for (const auto& one : part.holes)
-    if (!add_hole(one.hole, turn, out, stop)) return std::nullopt;
+    if (!add_hole(one.hole, turn, out)) return std::nullopt;
   return out;
 }
 

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/frame/alike.hpp"
@@ -51,7 +50,6 @@ struct FormWall {
 };
 /// Computes the wall of the part rotated by `turn` about its axis. Returns empty when the part
 /// cannot be cut on these phases.
-[[nodiscard]] std::optional<FormWall> wall_of(const Form& form, Angle turn,
-                                              const std::stop_token& stop);
+[[nodiscard]] std::optional<FormWall> wall_of(const Form& form, Angle turn);
 
 }  // namespace tubecut::frame::detail

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/frame/frame_parts.hpp"
 #include "core/joint/nearness.hpp"
@@ -12,6 +13,7 @@
 #include "core/joint/node/in_line.hpp"
 #include "core/joint/node/node_parts.hpp"
 #include "core/joint/node/overlap.hpp"
+#include "core/joint/node/passing.hpp"
 
 namespace tubecut::frame {
 namespace {
@@ -89,18 +91,46 @@ struct Off {
   }
 };
 
+joint::Nearness near(const joint::Member& branch, End end, const joint::Member& chord) {
+  return joint::nearness(branch.at(end), {chord.start, chord.finish, 0.0});
+}
+End nearer_end(const joint::Member& branch, const joint::Member& chord) {
+  const bool first =
+      near(branch, End::start, chord).distance <= near(branch, End::finish, chord).distance;
+  return first ? End::start : End::finish;
+}
+/// Returns true if the branch ends between the chord's ends, as a rail on a post does.
+bool ends_between(const joint::Member& branch, const joint::Member& chord) {
+  return near(branch, nearer_end(branch, chord), chord).inside > chord.reach();
+}
+
 /// Returns the link of two members that are joined only by a statement: the branch's end at the
-/// chord.
-joint::Link link(const FrameSpec& spec, const joint::NodeSpec& node, const StatedJoint& said) {
+/// chord. Of two alike, the one is the branch that ends between the ends of the other.
+Result<joint::Link> link(const FrameSpec& spec, const joint::NodeSpec& node, std::size_t index) {
+  const auto& said = spec.joints[index];
   const bool first = joint::detail::goes_before(node, said.member, said.with);
-  const auto chord = first ? said.member : said.with, branch = first ? said.with : said.member;
+  auto chord = first ? said.member : said.with, branch = first ? said.with : said.member;
+  const auto& a = spec.members[chord];
+  const auto& z = spec.members[branch];
+  if (a.priority == z.priority && a.half_size() == z.half_size() && ends_between(a, z) &&
+      !ends_between(z, a))
+    std::swap(chord, branch);
   const auto& c = spec.members[chord];
   const auto& b = spec.members[branch];
-  const auto off = [&](const Vector3d& p) {
-    return joint::nearness(p, {c.start, c.finish, 0.0}).distance;
-  };
-  const auto nearer = off(b.start) <= off(b.finish) ? End::start : End::finish;
-  return {.member = branch, .end = said.end.value_or(nearer), .to = {chord}};
+  const auto end = said.end.value_or(nearer_end(b, c));
+  const double most = joint::detail::far_end(b, c), off = near(b, end, c).distance;
+  if (off > most && said.how.kind != How::Kind::mitre && said.how.kind != How::Kind::butt)
+    return fail(
+        {.code = ErrorCode::no_contact,
+         .member = at_joint(index),
+         .got = off,
+         .limit = most,
+         .unit = "mm",
+         .hint = "the " + std::string(name_of(end)) + " of " + joint::detail::called(node, branch) +
+                 ", the branch, is too far from " + joint::detail::called(node, chord) +
+                 "; if the other is the branch, give " + joint::detail::called(node, branch) +
+                 " the lower priority number; if they cross, join them by through"});
+  return joint::Link{.member = branch, .end = end, .to = {chord}};
 }
 
 /// Reads the stated joints, of members and of others.
@@ -124,7 +154,8 @@ Result<Joined> stated(const FrameSpec& spec) {
     if (!out.of_members.emplace(std::minmax(said.member, said.with), i).second)
       return contradicts(i, {}, "the joint of these two is stated already");
     out.node.joints.push_back({said.member, said.with, of_node(said.how), at_joint(i)});
-    if (said.how.kind != How::Kind::through) links.push_back(link(spec, out.node, said));
+    if (spec.within || said.how.kind == How::Kind::through) continue;
+    TRY(links.emplace_back(), link(spec, out.node, i));
   }
   if (spec.within)
     out.node.connect = joint::Within{*spec.within};
@@ -133,9 +164,10 @@ Result<Joined> stated(const FrameSpec& spec) {
   return out;
 }
 
-/// Returns twice the sine of half the angle between two ends at a plane: as accurate as the angle.
+/// Returns the angle between two ends at a plane that halves it, rad.
 double out_of_line(const joint::CutBy& cut) {
-  return 2.0 * Vector3d::UnitZ().cross(cut.plane->normal.normalized()).norm();
+  return 2.0 * elementary::asin(
+                   std::min(1.0, Vector3d::UnitZ().cross(cut.plane->normal.normalized()).norm()));
 }
 
 /// Returns the joint by the defaults; in line, a butt joint or a mitre with their gap.
@@ -143,6 +175,25 @@ How found_as(const FrameSpec& spec, const joint::CutBy& cut) {
   if (!cut.plane) return spec.found;
   const bool square = out_of_line(cut) <= joint::kButtMost;
   return {.kind = square ? How::Kind::butt : How::Kind::mitre, .gap = spec.found.gap};
+}
+
+/// Drops found cutters that others hide everywhere: two rails that meet at a post end on its faces,
+/// and a joint of the two would make them different parts.
+void drop_hidden(Joined& joined) {
+  for (auto& end : joined.nodes.ends) {
+    const auto touched = joint::cuts_anywhere(joined.node.members[end.member], end);
+    const auto hidden = [&](const joint::CutBy& cut) {
+      const auto index = static_cast<std::size_t>(&cut - end.cut_by.data());
+      const auto known = joined.of_members.find(std::minmax(end.member, cut.member));
+      const bool stated =
+          known != joined.of_members.end() && joined.joints[known->second].stated.has_value();
+      return !touched[index] && !stated && !cut.plane;
+    };
+    std::vector<joint::CutBy> kept;
+    for (const auto& cut : end.cut_by)
+      if (!hidden(cut)) kept.push_back(cut);
+    end.cut_by = std::move(kept);
+  }
 }
 
 /// Adds the pairs that meet without a stated joint, each by its branch.
@@ -182,12 +233,8 @@ Result<void> settle(const FrameSpec& spec, Joined& joined) {
     }
   for (auto& one : joined.joints) {
     if (one.how.kind != How::Kind::through) continue;
-    const double a = spec.members[one.branch].half_size();
-    const double b = spec.members[one.chord].half_size();
-    if (a == b)
-      return contradicts(*one.stated, "kind",
-                         "of two equally thick neither passes through the other");
-    if (a > b) std::swap(one.branch, one.chord);
+    const auto passing = joint::which_passes(spec.members[one.branch], spec.members[one.chord]);
+    if (passing == joint::Passing::second) std::swap(one.branch, one.chord);
   }
   return {};
 }
@@ -243,10 +290,9 @@ std::vector<joint::Body> bodies(const FrameSpec& spec, const Joined& joined) {
 
 /// Warns of the members that enter one of the others although no joint names the two.
 Result<std::vector<Warning>> warnings_of_others(const FrameSpec& spec, const Joined& joined,
-                                                const joint::Beside& beside,
-                                                const std::stop_token& stop) {
+                                                const joint::Beside& beside) {
   TRY(const auto found,
-      joint::overlaps_with(bodies(spec, joined), joined.node, joined.nodes, beside, stop));
+      joint::overlaps_with(bodies(spec, joined), joined.node, joined.nodes, beside));
   std::vector<Warning> out;
   for (const auto& o : found) {
     const auto& name = spec.others[o.body].name;
@@ -282,23 +328,24 @@ Result<End> detail::end_at(const FrameSpec& spec, std::size_t index) {
                .hint = "both ends are equally near; select one with end"});
 }
 
-Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop) {
+Result<Frame> solve(const FrameSpec& spec) {
   TRY(check_others(spec));
   TRY(auto joined, stated(spec));
-  TRY(joined.nodes, joint::solve(joined.node, stop));
-  const auto before = joined.joints.size();
-  add_found(spec, joined);
-  if (joined.joints.size() > before) {
-    TRY(joined.nodes, joint::solve(joined.node, stop));
+  // A found joint that is set in moves its cut, so that another cutter may no longer be hidden.
+  for (std::size_t before = joined.joints.size() + 1; before != joined.joints.size();) {
+    TRY(joined.nodes, joint::solve(joined.node));
+    drop_hidden(joined);
+    before = joined.joints.size();
+    add_found(spec, joined);
   }
   TRY(settle(spec, joined));
   Frame out;
-  TRY(out.pieces, detail::pieces(spec, joined, stop));
+  TRY(out.pieces, detail::pieces(spec, joined));
   out.not_cut = not_cut(spec, joined);
   out.warnings = warnings(joined);
   const auto beside = detail::seats_of_others(spec, joined);
-  TRY(const auto shared, joint::overlaps(joined.node, joined.nodes, {}, stop, beside));
-  TRY(auto entering, warnings_of_others(spec, joined, beside, stop));
+  TRY(const auto shared, joint::overlaps(joined.node, joined.nodes, {}, beside));
+  TRY(auto entering, warnings_of_others(spec, joined, beside));
   for (auto& warning : joint::warnings_of(joined.node, shared))
     out.warnings.push_back(std::move(warning));
   for (auto& warning : entering) out.warnings.push_back(std::move(warning));

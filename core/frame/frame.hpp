@@ -16,7 +16,6 @@
 
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -138,13 +137,12 @@ struct Frame {
 ///           ambiguous_connection (joints/i: which end?), parallel_axes (others/i), cancelled.
 /// Accuracy  of joint::solve.
 /// Cost      twice that of joint::solve, with joint::overlaps; otherwise linear in members.
-[[nodiscard]] Result<Frame> solve(const FrameSpec& spec, const std::stop_token& stop = {});
+[[nodiscard]] Result<Frame> solve(const FrameSpec& spec);
 
 /// Verifies the requested parts by their own numbers: places them back into the world and compares
 /// them with the centre-lines, and compares the two sides of each joint. `asked`: of each member;
 /// if a part is refused by itself, it is null and is skipped.
 [[nodiscard]] std::vector<Check> verify(const FrameSpec& spec, const Frame& frame,
-                                        std::span<const part::PartSpec* const> asked,
-                                        const std::stop_token& stop = {});
+                                        std::span<const part::PartSpec* const> asked);
 
 }  // namespace tubecut::frame

@@ -38,7 +38,6 @@ struct Joined {
 [[nodiscard]] Result<joint::End> end_at(const FrameSpec& spec, std::size_t index);
 
 /// Errors  as `solve`.
-[[nodiscard]] Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined,
-                                                const std::stop_token& stop);
+[[nodiscard]] Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined);
 
 }  // namespace tubecut::frame::detail

@@ -25,7 +25,7 @@ bool alike(const joint::Member& a, const joint::Member& b) {
 }
 
 /// Finds for each end the end that it may be merged with.
-Result<Mates> mates(const FrameSpec& spec, const MergeSpec& besides, const std::stop_token& stop) {
+Result<Mates> mates(const FrameSpec& spec, const MergeSpec& besides) {
   joint::NodeSpec node{.members = spec.members,
                        .connect = joint::Within{spec.within.value_or(joint::kBesideMost)}};
   std::set<std::pair<std::size_t, std::size_t>> two;
@@ -38,10 +38,13 @@ Result<Mates> mates(const FrameSpec& spec, const MergeSpec& besides, const std::
       kept.insert(end_index(one.member, end));
       continue;
     }
+    // A bar that passes through another was split there, so the other does not end its pieces.
+    if (one.how.kind == How::Kind::through)
+      node.joints.push_back({one.member, one.with, {.kind = joint::JointKind::through}, {}});
     if (one.how.kind != How::Kind::butt || one.how.gap > 0.0)
       two.insert(std::minmax(one.member, one.with));
   }
-  TRY(auto out, joint::continued(node, stop));
+  TRY(auto out, joint::continued(node));
   for (std::size_t p = 0; p < out.size(); ++p) {
     if (!out[p] || *out[p] < p) continue;
     const auto q = *out[p];
@@ -181,9 +184,8 @@ Result<void> add_joints(const FrameSpec& spec, const MergeSpec& besides, Merged&
 
 }  // namespace
 
-Result<Merged> merge_in_line(const FrameSpec& spec, const MergeSpec& besides,
-                             const std::stop_token& stop) {
-  TRY(const auto of, mates(spec, besides, stop));
+Result<Merged> merge_in_line(const FrameSpec& spec, const MergeSpec& besides) {
+  TRY(const auto of, mates(spec, besides));
   std::vector<Run> all;
   for (const auto& run : runs(of))
     for (auto& one : straight(spec, run)) all.push_back(as_earliest(std::move(one)));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -42,7 +41,6 @@ struct MergeSpec {
 /// the direction of its earliest piece.
 ///
 /// Errors  those of joint::solve of members; cancelled.
-[[nodiscard]] Result<Merged> merge_in_line(const FrameSpec& spec, const MergeSpec& besides,
-                                           const std::stop_token& stop = {});
+[[nodiscard]] Result<Merged> merge_in_line(const FrameSpec& spec, const MergeSpec& besides);
 
 }  // namespace tubecut::frame

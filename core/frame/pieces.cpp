@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/frame/frame_parts.hpp"
 #include "core/joint/node/in_line.hpp"
@@ -144,14 +145,17 @@ struct Branch {
   bool passes = false;
 };
 
-/// Returns for each member the branches that are set on it or pass through it.
+/// Returns for each member the branches that are set on it or pass through it. A cutter that others
+/// hide everywhere gets neither a hole nor a mark, because the branch does not reach it.
 std::vector<std::vector<Branch>> branches(const Joined& joined) {
   std::vector<std::vector<Branch>> out(joined.node.members.size());
-  for (const auto& end : joined.nodes.ends)
-    for (const auto& cut : end.cut_by)
-      if (!cut.plane)
+  for (const auto& end : joined.nodes.ends) {
+    const auto touched = joint::cuts_anywhere(joined.node.members[end.member], end);
+    for (std::size_t i = 0; i < end.cut_by.size(); ++i)
+      if (const auto& cut = end.cut_by[i]; !cut.plane && touched[i])
         out[cut.member].push_back(
             {end.member, joined.joint_of(end.member, cut.member), end.end, false});
+  }
   for (std::size_t i = 0; i < joined.joints.size(); ++i)
     if (const auto& one = joined.joints[i]; one.how.kind == How::Kind::through)
       out[one.chord].push_back({one.branch, i, End::start, true});
@@ -332,13 +336,12 @@ joint::Beside seats_of_others(const FrameSpec& spec, const Joined& joined) {
   return out;
 }
 
-Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined,
-                                  const std::stop_token& stop) {
+Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined) {
   const auto on = branches(joined);
   std::vector<Piece> out;
   out.reserve(spec.members.size());
   for (std::size_t i = 0; i < spec.members.size(); ++i) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     TRY(auto one, piece(spec, joined, i, on[i]));
     out.push_back(std::move(one));
   }

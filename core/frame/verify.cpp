@@ -4,6 +4,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/frame/frame.hpp"
 
 namespace tubecut::frame {
@@ -215,11 +216,10 @@ class Proof {
 }  // namespace
 
 std::vector<Check> verify(const FrameSpec& spec, const Frame& frame,
-                          std::span<const part::PartSpec* const> asked,
-                          const std::stop_token& stop) {
+                          std::span<const part::PartSpec* const> asked) {
   Proof proof(spec, frame, asked);
   for (std::size_t i = 0; i < spec.members.size(); ++i) {
-    if (stop.stop_requested()) return {};
+    if (stopped()) return {};
     if (asked[i] != nullptr) proof.see(i);
   }
   proof.see_sides();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/groove/survey.hpp"
 
@@ -36,11 +37,11 @@ GrooveSection report(const Joint& joint, const Section& section) {
 
 }  // namespace
 
-Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop) {
-  TRY(const auto joint, joint_of(spec, stop));
+Result<Groove> groove(const GrooveSpec& spec) {
+  TRY(const auto joint, joint_of(spec));
   const double fixed_height =
       spec.compare ? joint.groove_width * elementary::tan(spec.compare->bevel.rad()) : 0.0;
-  TRY(auto whole, survey(joint, fixed_height, stop));
+  TRY(auto whole, survey(joint, fixed_height));
   Groove out;
   out.area = joint.area;
   out.least_area = whole.least_area;
@@ -51,7 +52,7 @@ Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop) {
   out.warnings = std::move(whole.warnings);
   if (spec.compare) out.compare = Comparison{fixed_height, {}, whole.fixed_volume};
   for (int i = 0; i < spec.sections; ++i) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     const auto found = section(joint, Angle::rad(kTwoPi * i / spec.sections));
     if (!found) return fail({.code = found.error(), .member = "branch/wall"});
     out.sections.push_back(report(joint, *found));
@@ -62,8 +63,8 @@ Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop) {
   return out;
 }
 
-Result<GrooveSection> section_at(const GrooveSpec& spec, Angle omega, const std::stop_token& stop) {
-  TRY(const auto joint, joint_of(spec, stop));
+Result<GrooveSection> section_at(const GrooveSpec& spec, Angle omega) {
+  TRY(const auto joint, joint_of(spec));
   const auto found = section(joint, omega);
   if (!found) return fail({.code = found.error(), .member = "branch/wall"});
   auto out = report(joint, *found);

@@ -16,7 +16,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -68,18 +67,16 @@ struct Groove {
 /// Accuracy  sections 1e-12 relative; volume and length as in `survey`.
 /// Cost      1 ms and 1 us per section.
 /// Source    docs/theory/grooves-and-milling.md, sections 1-5.
-[[nodiscard]] Result<Groove> groove(const GrooveSpec& spec, std::stop_token stop = {});
+[[nodiscard]] Result<Groove> groove(const GrooveSpec& spec);
 
 /// Computes one section anywhere around the joint, in the form of `groove`.
 ///
 /// Errors  of `joint_of` and `section`.
-[[nodiscard]] Result<GrooveSection> section_at(const GrooveSpec& spec, Angle omega,
-                                               const std::stop_token& stop = {});
+[[nodiscard]] Result<GrooveSection> section_at(const GrooveSpec& spec, Angle omega);
 
 /// Verifies an answer by formulas independent of those that computed it.
 ///
 /// Cost    about 3 ms.
-[[nodiscard]] std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove);
 
 }  // namespace tubecut::groove

@@ -8,6 +8,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/groove/groove.hpp"
 #include "core/groove/groove_limits.hpp"
 #include "core/groove/normal_area.hpp"
@@ -257,12 +258,11 @@ Extremes extremes_of_round(const GrooveSpec& spec, const Joint& joint) {
 
 }  // namespace
 
-std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove,
-                          const std::stop_token& stop) {
-  const auto joint = joint_of(spec, stop);
+std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove) {
+  const auto joint = joint_of(spec);
   if (!joint) return {{"joint", 1.0, 0.0, ""}};
   SectionDeviations worst;
-  for (std::size_t i = 0; i < groove.sections.size() && !stop.stop_requested(); ++i)
+  for (std::size_t i = 0; i < groove.sections.size() && !stopped(); ++i)
     add_section(spec, groove, *joint, i, worst);
   const RoundDeviations round = round_figures(spec, groove, *joint);
   const GrooveLimits limit = groove_limits(*joint);
@@ -285,7 +285,7 @@ std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove,
       {"weld_length", ratio(groove.weld_length, round.length), kLengthLimit, "ratio"},
   };
   if (spec.area_in == AreaIn::normal)
-    out.push_back({"normal_area", normal_area_off(*joint, groove.area, kNormalStations, stop),
+    out.push_back({"normal_area", normal_area_off(*joint, groove.area, kNormalStations),
                    kNormalAreaLimit, "ratio"});
   if (groove.compare) {
     out.push_back({"compare_area", worst.compare.value(), limit.area, "mm2"});

@@ -164,7 +164,7 @@ Result<double> area_of_height(const Joint& joint, const FillerHeight& reference)
 
 std::string degrees_text(Angle angle) { return brief(angle.deg()) + " deg"; }
 
-Result<Joint> joint_of(const GrooveSpec& spec, const std::stop_token& stop) {
+Result<Joint> joint_of(const GrooveSpec& spec) {
   TRY(no_issues(field_issues(spec)));
   TRY(no_issues(shape_issues(spec)));
   Joint out = dimensions(spec);
@@ -177,7 +177,7 @@ Result<Joint> joint_of(const GrooveSpec& spec, const std::stop_token& stop) {
     out.area = kept->axial;
   }
   if (spec.area_in == AreaIn::axial) return out;
-  TRY(equal_normal_areas(out, kept, stop));
+  TRY(equal_normal_areas(out, kept));
   return out;
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <variant>
 
@@ -87,7 +86,7 @@ inline constexpr int kMaxSections = 20000;
 ///         p2_ambiguous at the reference section of a filler height; `area` also if normal sections
 ///         cannot be made equal.
 /// Source  docs/theory/grooves-and-milling.md, sections 1 and 9.
-[[nodiscard]] Result<Joint> joint_of(const GrooveSpec& spec, const std::stop_token& stop = {});
+[[nodiscard]] Result<Joint> joint_of(const GrooveSpec& spec);
 
 /// Returns an angle as degrees with enough digits for a message.
 [[nodiscard]] std::string degrees_text(Angle angle);

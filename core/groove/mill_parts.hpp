@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -26,8 +25,7 @@ struct Shop {
 ///
 /// Errors  of `gap` and of the method; cancelled.
 [[nodiscard]] tl::expected<MillPosition, ErrorCode> position(const Shop& shop, double station,
-                                                             std::optional<Increment> given,
-                                                             std::stop_token stop);
+                                                             std::optional<Increment> given);
 
 /// Increments between the optima: smooth if the optima are, polylines if they are noise.
 class Increments {
@@ -46,8 +44,7 @@ class Increments {
 ///
 /// Errors  too_many_nodes, cancelled, those of `section`.
 [[nodiscard]] Result<std::vector<double>> emitted_stations(const Shop& shop,
-                                                           const Increments& increments,
-                                                           std::stop_token stop);
+                                                           const Increments& increments);
 
 /// Returns `angle` shifted by whole revolutions to within half a revolution of `to`; rad.
 [[nodiscard]] double nearest_turn(double angle, double to);

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/groove/mill_parts.hpp"
 #include "core/groove/survey.hpp"
@@ -95,31 +96,30 @@ std::vector<Warning> path_warnings(const MillPathSpec& spec, const MillPath& pat
   return out;
 }
 
-Result<std::vector<MillPosition>> optima_of(const Shop& shop, std::stop_token stop) {
+Result<std::vector<MillPosition>> optima_of(const Shop& shop) {
   std::vector<MillPosition> out;
   out.reserve(std::size_t(shop.spec.positions));  // because growth would move all 20 000 at once
   for (int i = 0; i < shop.spec.positions; ++i) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    auto found = position(shop, i, std::nullopt, stop);
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
+    auto found = position(shop, i, std::nullopt);
     if (!found) return failed(found.error(), shop.omega(i));
     out.push_back(std::move(*found));
   }
   return out;
 }
 
-Result<std::vector<MillPosition>> emitted(const Shop& shop, std::vector<MillPosition> optima,
-                                          std::stop_token stop) {
+Result<std::vector<MillPosition>> emitted(const Shop& shop, std::vector<MillPosition> optima) {
   const Increments increments{optima, shop.spec.optimise.method};
-  TRY(const auto stations, emitted_stations(shop, increments, stop));
+  TRY(const auto stations, emitted_stations(shop, increments));
   std::vector<MillPosition> out;
   out.reserve(stations.size());
   for (const double station : stations) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     if (station == std::floor(station)) {
       out.push_back(optima[std::size_t(station)]);
       continue;
     }
-    auto between = position(shop, station, increments.at(station), stop);
+    auto between = position(shop, station, increments.at(station));
     if (!between) return failed(between.error(), shop.omega(station));
     out.push_back(std::move(*between));
   }
@@ -150,21 +150,21 @@ int most_positions(const GapCheck& check, Method method) {
   return std::min(most, most_within(kMaxAnnealedSamples, gap_work(check).samples));
 }
 
-Result<MillPath> mill_path(const MillPathSpec& spec, std::stop_token stop) {
-  TRY(const auto joint, under("groove", joint_of(spec.groove, stop)));
+Result<MillPath> mill_path(const MillPathSpec& spec) {
+  TRY(const auto joint, under("groove", joint_of(spec.groove)));
   TRY(no_issues(check_issues(spec)));
-  TRY(auto whole, under("groove", survey(joint, 0.0, stop)));
+  TRY(auto whole, under("groove", survey(joint, 0.0)));
   TRY(check_tool(joint, whole, spec.mill, spec.setup));
   const Shop shop{spec, joint, Cone{spec.mill}};
-  TRY(auto optima, optima_of(shop, stop));
+  TRY(auto optima, optima_of(shop));
   MillPath out;
-  TRY(out.positions, emitted(shop, std::move(optima), stop));
+  TRY(out.positions, emitted(shop, std::move(optima)));
   for (const MillPosition& p : out.positions)
     if (auto issue = travel_issue(spec.setup.travel, p)) return fail(std::move(*issue));
   const SweptPoints points{.per_ruling = spec.check.points};
   for (const bool optima_only : {false, true}) {
     auto figures = swept(shop.joint, shop.cone, spec.setup, blocks_of(out.positions, optima_only),
-                         Between::linear, points, stop);
+                         Between::linear, points);
     if (!figures) return failed(figures.error(), 0.0);
     (optima_only ? out.swept_at_optima : out.swept) = *figures;
   }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -67,13 +66,12 @@ struct GapWork {
 /// Cost      0.4 ms per optimised and 0.2 ms per further position, 0.15 s for the swept figures;
 ///           annealing 15 ms per position.
 /// Source    docs/theory/grooves-and-milling.md, sections 6-8.
-[[nodiscard]] Result<MillPath> mill_path(const MillPathSpec& spec, std::stop_token stop = {});
+[[nodiscard]] Result<MillPath> mill_path(const MillPathSpec& spec);
 
 /// Verifies an answer by independent formulas: points in machine space against the cone's apex
 /// angle.
 ///
 /// Cost    about 0.1 ms per position.
-[[nodiscard]] std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path);
 
 }  // namespace tubecut::groove

@@ -25,13 +25,13 @@ std::mt19937_64 generator(std::uint64_t seed, int index) {
   return std::mt19937_64{seed * 0x9E3779B97F4A7C15ULL + std::uint64_t(index)};
 }
 
-tl::expected<Optimum, ErrorCode> improve(const Shop& shop, const Task& task, Gap initial, int index,
-                                         std::stop_token stop) {
+tl::expected<Optimum, ErrorCode> improve(const Shop& shop, const Task& task, Gap initial,
+                                         int index) {
   const Optimise& how = shop.spec.optimise;
-  if (how.method == Method::chebyshev) return chebyshev(task, how.bias, std::move(initial), stop);
+  if (how.method == Method::chebyshev) return chebyshev(task, how.bias, std::move(initial));
   if (how.method == Method::none) return certified(task, {}, 0.0, 1, std::move(initial));
   auto random = generator(how.seed, index);
-  return annealing(task, random, stop);
+  return annealing(task, random);
 }
 
 PeriodicSpline spline_of(const std::vector<MillPosition>& optima, double Increment::*part) {
@@ -69,12 +69,11 @@ double nearest_turn(double angle, double to) {
 }
 
 tl::expected<MillPosition, ErrorCode> position(const Shop& shop, double station,
-                                               std::optional<Increment> given,
-                                               std::stop_token stop) {
+                                               std::optional<Increment> given) {
   const MillPathSpec& spec = shop.spec;
   const Angle omega = Angle::rad(shop.omega(station));
   TRY(const auto here, section(shop.joint, omega));
-  TRY(const auto near, neighbourhood(shop.joint, omega, spec.check, stop));
+  TRY(const auto near, neighbourhood(shop.joint, omega, spec.check));
   const Task task{near, shop.cone, spec.setup,
                   initial_pose(shop.joint, here, spec.mill, spec.setup), spec.optimise.hold};
   TRY(auto initial, gap(near, shop.cone, task.start));
@@ -88,7 +87,7 @@ tl::expected<MillPosition, ErrorCode> position(const Shop& shop, double station,
     TRY(auto seen, gap(near, shop.cone, moved(task.start, spec.setup, task.hold, *given)));
     best = certified(task, *given, 0.0, 0, std::move(seen));
   } else {
-    TRY(best, improve(shop, task, std::move(initial), int(station), stop));
+    TRY(best, improve(shop, task, std::move(initial), int(station)));
   }
   const ToolPose pose = moved(task.start, spec.setup, task.hold, best.by);
   out.at = axis_position(pose, spec.setup, omega);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/groove/mill_parts.hpp"
 
@@ -14,11 +15,11 @@ class Route {
 
   /// Returns the stations to emit: the optima, and between each two as many equal parts as keep the
   /// sag small.
-  [[nodiscard]] Result<std::vector<double>> stations(std::stop_token stop) const {
+  [[nodiscard]] Result<std::vector<double>> stations() const {
     std::vector<double> out;
     const int most = most_emitted(shop_.spec.check);
     for (int i = 0; i < shop_.spec.positions; ++i) {
-      if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+      if (stopped()) return fail({.code = ErrorCode::cancelled});
       const auto count = parts(i);
       if (!count) return failed(count.error(), shop_.omega(i));
       for (int k = 0; k < *count; ++k) out.push_back(i + double(k) / *count);
@@ -92,9 +93,8 @@ class Route {
 
 }  // namespace
 
-Result<std::vector<double>> emitted_stations(const Shop& shop, const Increments& increments,
-                                             std::stop_token stop) {
-  return Route{shop, increments}.stations(stop);
+Result<std::vector<double>> emitted_stations(const Shop& shop, const Increments& increments) {
+  return Route{shop, increments}.stations();
 }
 
 }  // namespace tubecut::groove

@@ -6,6 +6,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/groove/machine_space.hpp"
 #include "core/groove/mill_limits.hpp"
 #include "core/groove/mill_path.hpp"
@@ -26,13 +27,12 @@ struct MaxResidual {
 
 class Verifier {
  public:
-  Verifier(const MillPathSpec& spec, const MillPath& path, const Joint& joint,
-           const std::stop_token& stop)
-      : spec_(spec), path_(path), joint_(joint), stop_(stop), machine_(spec) {}
+  Verifier(const MillPathSpec& spec, const MillPath& path, const Joint& joint)
+      : spec_(spec), path_(path), joint_(joint), machine_(spec) {}
 
   std::vector<Check> run() {
     const std::size_t n = path_.positions.size();
-    for (std::size_t i = 0; i < n && !stop_.stop_requested(); ++i) {
+    for (std::size_t i = 0; i < n && !stopped(); ++i) {
       const MillPosition& p = path_.positions[i];
       start_on_ruling(p);
       contacts(p, machine_.before(p), p.before);
@@ -288,7 +288,7 @@ class Verifier {
         root.value));
     constexpr int kRulings = 24;
     const int last = spec_.check.points - 1;
-    for (int k = 0; k < 3 * kRulings && !stop_.stop_requested(); ++k) {
+    for (int k = 0; k < 3 * kRulings && !stopped(); ++k) {
       const double omega = kTwoPi * (k / 3) / kRulings;
       const double v =
           double(k % 3 * last / 2) / last;  // first, a middle and the last of the points
@@ -318,7 +318,6 @@ class Verifier {
   const MillPathSpec& spec_;
   const MillPath& path_;
   const Joint& joint_;
-  const std::stop_token& stop_;
   Machine machine_;
   std::vector<Block> blocks_;
   std::vector<Tool> tools_;  // at the blocks, in the workpiece's frame
@@ -327,11 +326,10 @@ class Verifier {
 
 }  // namespace
 
-std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path,
-                          const std::stop_token& stop) {
-  const auto joint = joint_of(spec.groove, stop);
+std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path) {
+  const auto joint = joint_of(spec.groove);
   if (!joint || path.positions.empty()) return {{"joint", 1.0, 0.0, ""}};
-  return Verifier{spec, path, *joint, stop}.run();
+  return Verifier{spec, path, *joint}.run();
 }
 
 }  // namespace tubecut::groove

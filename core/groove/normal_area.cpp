@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/groove/section.hpp"
 
 namespace tubecut::groove {
@@ -151,9 +152,8 @@ bool keep(const KeptArea& kept, Joint& joint, std::vector<double>& factors) {
 
 /// Runs one round: computes the areas from the factors. Returns false when a section does not
 /// exist.
-bool areas_of(const Joint& joint, std::vector<double>& out, Furthest& none,
-              const std::stop_token& stop) {
-  for (int k = 0; k < kKnots && !stop.stop_requested(); ++k) {
+bool areas_of(const Joint& joint, std::vector<double>& out, Furthest& none) {
+  for (int k = 0; k < kKnots && !stopped(); ++k) {
     const auto area = normal_area(joint, station(k, kKnots));
     if (!area || !(*area > 0.0)) {
       none = nowhere(station(k, kKnots));
@@ -175,9 +175,9 @@ std::optional<double> normal_area(const Joint& joint, Angle omega) {
   return (4.0 * *fine - *coarse) / 3.0;
 }
 
-double normal_area_off(const Joint& joint, double area, int stations, const std::stop_token& stop) {
+double normal_area_off(const Joint& joint, double area, int stations) {
   double worst = 0.0;
-  for (int k = 0; k < stations && !stop.stop_requested(); ++k) {
+  for (int k = 0; k < stations && !stopped(); ++k) {
     const auto found = normal_area(joint, station(k, stations));
     if (!found) return std::numeric_limits<double>::infinity();
     worst = std::max(worst, std::abs(*found / area - 1.0));
@@ -185,8 +185,7 @@ double normal_area_off(const Joint& joint, double area, int stations, const std:
   return worst;
 }
 
-Result<void> equal_normal_areas(Joint& joint, const std::optional<KeptArea>& kept,
-                                const std::stop_token& stop) {
+Result<void> equal_normal_areas(Joint& joint, const std::optional<KeptArea>& kept) {
   std::vector<double> factors, found(kKnots);
   for (int k = 0; k < kKnots; ++k) {
     const auto dir = direction(station(k, kKnots));
@@ -198,11 +197,11 @@ Result<void> equal_normal_areas(Joint& joint, const std::optional<KeptArea>& kep
   Furthest worst;
   double best = std::numeric_limits<double>::infinity();
   for (int since = 0; best > kEqual && since < kPatience; ++since) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     Joint tried = joint;
     tried.area_factor = PeriodicSpline(factors);
     if (kept && !keep(*kept, tried, factors)) return refuse(joint, nowhere(kept->at));
-    if (!areas_of(tried, found, worst, stop)) break;
+    if (!areas_of(tried, found, worst)) break;
     worst = {};
     for (std::size_t k = 0; k < kKnots; ++k) {
       const double share = found[k] / tried.area;
@@ -217,7 +216,7 @@ Result<void> equal_normal_areas(Joint& joint, const std::optional<KeptArea>& kep
   if (!joint.area_factor) return refuse(joint, worst);
   worst = {};
   for (int k = 1; k < 2 * kKnots; k += 2) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     const Angle between = station(k, 2 * kKnots);
     const auto area = normal_area(joint, between);
     if (!area) return refuse(joint, nowhere(between));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 
 #include "core/base/error.hpp"
 #include "core/groove/joint.hpp"
@@ -30,14 +29,12 @@ struct KeptArea {
 ///           steep and the groove high, the planes cross one another.
 /// Cost      about 10 ms a round, three to eight of them.
 /// Source    docs/theory/grooves-and-milling.md, section 1.
-[[nodiscard]] Result<void> equal_normal_areas(Joint& joint, const std::optional<KeptArea>& kept,
-                                              const std::stop_token& stop = {});
+[[nodiscard]] Result<void> equal_normal_areas(Joint& joint, const std::optional<KeptArea>& kept);
 
 inline constexpr double kNormalAreaLimit = 1e-3;  // of the area
 
 /// Returns the largest relative error of a normal section's area against `area`, over this many
 /// stations.
-[[nodiscard]] double normal_area_off(const Joint& joint, double area, int stations,
-                                     const std::stop_token& stop = {});
+[[nodiscard]] double normal_area_off(const Joint& joint, double area, int stations);
 
 }  // namespace tubecut::groove

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 
 namespace tubecut::groove {
@@ -73,8 +74,7 @@ struct Trial {
 
 class Descent {
  public:
-  Descent(const Task& task, Gap initial, std::stop_token stop)
-      : task_(task), stop_(std::move(stop)), at_{{}, std::move(initial), 0.0} {}
+  Descent(const Task& task, Gap initial) : task_(task), at_{{}, std::move(initial), 0.0} {}
 
   /// Runs the sequential linear minimax of max |g - bias| from where the last one ended.
   tl::expected<Optimum, ErrorCode> run(double bias) {
@@ -82,7 +82,7 @@ class Descent {
     at_.worst = worst(at_.gap, bias);
     refuge_.reset();
     for (int i = 0; i < kSteps; ++i) {
-      if (stop_.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
+      if (stopped()) return tl::unexpected(ErrorCode::cancelled);
       const ToolPose pose = moved(task_.start, task_.setup, task_.hold, at_.by);
       const auto slopes = gap_slopes(task_, pose, at_.gap);
       if (!effective(slopes)) return tl::unexpected(ErrorCode::z_ineffective);
@@ -163,7 +163,6 @@ class Descent {
   }
 
   const Task& task_;
-  std::stop_token stop_;
   Trial at_;
   std::optional<Refuge> refuge_;
   int evaluations_ = 1;  // the initial gap
@@ -222,9 +221,8 @@ Optimum certified(const Task& task, Increment by, double bias, int evaluations, 
   return out;
 }
 
-tl::expected<Optimum, ErrorCode> chebyshev(const Task& task, Bias bias, Gap initial,
-                                           std::stop_token stop) {
-  Descent descent{task, std::move(initial), std::move(stop)};
+tl::expected<Optimum, ErrorCode> chebyshev(const Task& task, Bias bias, Gap initial) {
+  Descent descent{task, std::move(initial)};
   auto out = descent.run(0.0);
   if (bias == Bias::centred) return out;
   // Lifting everything by G slightly changes the attainable G: aim at the new one until they agree.
@@ -237,8 +235,7 @@ tl::expected<Optimum, ErrorCode> chebyshev(const Task& task, Bias bias, Gap init
   return out;
 }
 
-tl::expected<Optimum, ErrorCode> annealing(const Task& task, std::mt19937_64& random,
-                                           std::stop_token stop) {
+tl::expected<Optimum, ErrorCode> annealing(const Task& task, std::mt19937_64& random) {
   constexpr int kLevels = 80, kMoves = 30;
   constexpr double kCooling = 0.93;
   const auto objective = [&task](Increment by) {
@@ -257,7 +254,7 @@ tl::expected<Optimum, ErrorCode> annealing(const Task& task, std::mt19937_64& ra
   for (int level = 0; level < kLevels; ++level, temperature *= kCooling) {
     const double size = 8.0 * std::max(temperature, 0.01 * start);
     for (int move = 0; move < kMoves; ++move) {
-      if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
+      if (stopped()) return tl::unexpected(ErrorCode::cancelled);
       const double dz = size * (2.0 * uniform() - 1.0), db = size / reach * (2.0 * uniform() - 1.0);
       const Increment next{at.dz + dz, at.db + db};
       const double there = objective(next);

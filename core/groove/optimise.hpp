@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <random>
 #include <span>
-#include <stop_token>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -69,8 +68,7 @@ struct Optimum {
 /// Cost      2-7 evaluations in 2000 random positions, 4.7 on average; with `no_overcut` about 12.
 /// Source    docs/theory/grooves-and-milling.md, 8.3. If a step does not help, the source halves it
 ///           at once; here it is accepted once on trust (9 and 11 evaluations became 7).
-[[nodiscard]] tl::expected<Optimum, ErrorCode> chebyshev(const Task& task, Bias bias, Gap initial,
-                                                         std::stop_token stop = {});
+[[nodiscard]] tl::expected<Optimum, ErrorCode> chebyshev(const Task& task, Bias bias, Gap initial);
 
 /// Runs the published method: simulated annealing of the grid objective (16), 80 levels of 30
 /// moves, T from F(0) by 0.93. The source gives no schedule and no moves; those are ours. Only for
@@ -79,7 +77,6 @@ struct Optimum {
 /// Errors  of `gap` at the result; cancelled.
 /// Cost    2401 grid evaluations, about 15 ms.
 /// Source  docs/theory/grooves-and-milling.md, 8.5.
-[[nodiscard]] tl::expected<Optimum, ErrorCode> annealing(const Task& task, std::mt19937_64& random,
-                                                         std::stop_token stop);
+[[nodiscard]] tl::expected<Optimum, ErrorCode> annealing(const Task& task, std::mt19937_64& random);
 
 }  // namespace tubecut::groove

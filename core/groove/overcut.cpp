@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 
 namespace tubecut::groove {
@@ -145,15 +146,14 @@ int ruling_reach(const GapCheck& check) {
 }
 
 tl::expected<Neighbourhood, ErrorCode> neighbourhood(const Joint& joint, Angle omega,
-                                                     const GapCheck& check,
-                                                     const std::stop_token& stop) {
+                                                     const GapCheck& check) {
   Neighbourhood out{&joint, omega, check.points, {}, {}};
   const int reach = ruling_reach(check);
   out.rulings.reserve(std::size_t(2 * reach + 1));
   out.samples.reserve(std::size_t(2 * reach + 1) * std::size_t(check.points));
   std::optional<double> near;  // D of the ruling before, and its extrapolation
   for (int m = -reach; m <= reach; ++m) {
-    if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
+    if (stopped()) return tl::unexpected(ErrorCode::cancelled);
     TRY(const auto found, neighbour(joint, omega, m * check.pitch.rad(), near));
     near = found.D + found.D_d * check.pitch.rad();
     out.rulings.push_back(found);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <stop_token>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -38,8 +37,8 @@ struct Neighbourhood {
 };
 
 /// Errors  those of `section`; cancelled.
-[[nodiscard]] tl::expected<Neighbourhood, ErrorCode> neighbourhood(
-    const Joint& joint, Angle omega, const GapCheck& check, const std::stop_token& stop = {});
+[[nodiscard]] tl::expected<Neighbourhood, ErrorCode> neighbourhood(const Joint& joint, Angle omega,
+                                                                   const GapCheck& check);
 
 /// The source's figures: the ruling that contains the deepest point, read at its points. They omit
 /// the surface between rulings.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/groove/machine_space.hpp"
 #include "core/groove/mill_limits.hpp"
@@ -95,11 +96,11 @@ Result<DeepestPlaces> places(const Joint& joint, const MillPath& path,
 }  // namespace
 
 Result<Probe> probe(const MillPathSpec& spec, const MillPath& path,
-                    const std::vector<ProbePoint>& asked, const std::stop_token& stop) {
-  TRY(const auto joint, joint_of(spec.groove, stop));
+                    const std::vector<ProbePoint>& asked) {
+  TRY(const auto joint, joint_of(spec.groove));
   Probe out;
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     TRY(auto one, under("probe/" + std::to_string(i), probed(joint, spec, path, asked[i])));
     out.points.push_back(std::move(one));
   }
@@ -108,8 +109,7 @@ Result<Probe> probe(const MillPathSpec& spec, const MillPath& path,
   return out;
 }
 
-Check verify(const MillPathSpec& spec, const std::vector<ProbePoint>& asked, const Probe& probe,
-             const std::stop_token& stop) {
+Check verify(const MillPathSpec& spec, const std::vector<ProbePoint>& asked, const Probe& probe) {
   const Machine machine{spec};
   double worst = 0.0;
   const auto hold = [&](const AxisPosition& at, const Eigen::Vector3d& point, double stated) {
@@ -118,7 +118,7 @@ Check verify(const MillPathSpec& spec, const std::vector<ProbePoint>& asked, con
         stated);
     if (!(off <= worst)) worst = off;
   };
-  for (std::size_t i = 0; i < asked.size() && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < asked.size() && !stopped(); ++i) {
     const Probed& one = probe.points[i];
     hold(one.at_before, one.point, one.before);
     hold(one.at, one.point, one.after);

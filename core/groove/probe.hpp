@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <stop_token>
 #include <vector>
 
 #include "core/groove/mill_path.hpp"
@@ -46,11 +45,10 @@ struct Probe {
 /// Cost      about 2 us a point.
 /// Source    docs/theory/grooves-and-milling.md, section 7.
 [[nodiscard]] Result<Probe> probe(const MillPathSpec& spec, const MillPath& path,
-                                  const std::vector<ProbePoint>& asked,
-                                  const std::stop_token& stop = {});
+                                  const std::vector<ProbePoint>& asked);
 
 /// Recomputes the distances in the branch's frame, from the cone's apex angle.
 [[nodiscard]] Check verify(const MillPathSpec& spec, const std::vector<ProbePoint>& asked,
-                           const Probe& probe, const std::stop_token& stop = {});
+                           const Probe& probe);
 
 }  // namespace tubecut::groove

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/groove/section.hpp"
 #include "core/groove/surface.hpp"
 
@@ -135,10 +136,10 @@ class Surveyor {
 
 }  // namespace
 
-Result<Survey> survey(const Joint& joint, double fixed_height, std::stop_token stop) {
+Result<Survey> survey(const Joint& joint, double fixed_height) {
   Surveyor surveyor{joint, fixed_height};
   for (int i = 0; i < kSurveySections; ++i) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     const Angle omega = Angle::rad(kTwoPi * i / kSurveySections);
     const auto found = section(joint, omega);
     if (!found)

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/groove/tool_motion.hpp"
 
@@ -37,9 +38,9 @@ class Sweep {
   Sweep(const Joint& joint, const SweptPoints& points, ToolMotion motion)
       : joint_(joint), points_(points), motion_(std::move(motion)) {}
 
-  tl::expected<Swept, ErrorCode> run(const std::stop_token& stop) {
+  tl::expected<Swept, ErrorCode> run() {
     for (int j = 0; j < points_.rulings; ++j) {
-      if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
+      if (stopped()) return tl::unexpected(ErrorCode::cancelled);
       TRY(const auto found, section(joint_, omega(j)));
       sections_.push_back(found);
       motion_.look_at(omega(j).rad(), found.dir);
@@ -49,11 +50,11 @@ class Sweep {
     const auto groove = [this](At at) { return on_groove(at); };
     const auto root = [this](At at) { return on_root_face(at); };
     Swept out;
-    out.flank_min = extreme(std::move(deepest_), groove, Part::flank, 1.0, stop);
-    out.flank_max = extreme(std::move(highest_), groove, Part::flank, -1.0, stop);
-    out.stock_left_max = extreme(std::move(left_), groove, Part::solid, -1.0, stop);
-    out.root_face_min = extreme(std::move(root_), root, Part::solid, 1.0, stop);
-    if (stop.stop_requested()) return tl::unexpected(ErrorCode::cancelled);
+    out.flank_min = extreme(std::move(deepest_), groove, Part::flank, 1.0);
+    out.flank_max = extreme(std::move(highest_), groove, Part::flank, -1.0);
+    out.stock_left_max = extreme(std::move(left_), groove, Part::solid, -1.0);
+    out.root_face_min = extreme(std::move(root_), root, Part::solid, 1.0);
+    if (stopped()) return tl::unexpected(ErrorCode::cancelled);
     return out;
   }
 
@@ -96,13 +97,11 @@ class Sweep {
   /// Returns the smallest of `sign` times the values, the first of equals: from the smallest bound
   /// on, until no other can be smaller.
   template <class PointAt>
-  Extreme extreme(std::vector<Bounded> heap, const PointAt& point_at, Part part, double sign,
-                  const std::stop_token& stop) {
+  Extreme extreme(std::vector<Bounded> heap, const PointAt& point_at, Part part, double sign) {
     std::make_heap(heap.begin(), heap.end());
     Bounded best{kFarAway, {}};
     Extreme out{.value = sign * kFarAway};
-    while (!heap.empty() && heap.front().bound <= best.bound + kSearched &&
-           !stop.stop_requested()) {
+    while (!heap.empty() && heap.front().bound <= best.bound + kSearched && !stopped()) {
       std::pop_heap(heap.begin(), heap.end());
       const auto [bound, at, tight] = heap.back();
       heap.pop_back();
@@ -148,8 +147,8 @@ ToolPose pose_of(const Block& block, const Setup& setup) {
 
 tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone, const Setup& setup,
                                      std::span<const Block> blocks, Between between,
-                                     const SweptPoints& points, std::stop_token stop) {
-  return Sweep{joint, points, ToolMotion{cone, setup, blocks, between}}.run(stop);
+                                     const SweptPoints& points) {
+  return Sweep{joint, points, ToolMotion{cone, setup, blocks, between}}.run();
 }
 
 }  // namespace tubecut::groove

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <stop_token>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -63,6 +62,6 @@ struct SweptPoints {
 [[nodiscard]] tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone,
                                                    const Setup& setup,
                                                    std::span<const Block> blocks, Between between,
-                                                   const SweptPoints& points, std::stop_token stop);
+                                                   const SweptPoints& points);
 
 }  // namespace tubecut::groove

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/cutters/elbow_leg.hpp"
 
@@ -13,12 +14,11 @@ namespace {
 constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg: below it dz grows as 1/sin a
 constexpr double kTie = 1e-12;                         // of radius + |z|, rounding of one height
 
-Result<std::vector<PreparedCutter>> prepare_all(std::span<const Cutter> cutters,
-                                                const std::stop_token& stop) {
+Result<std::vector<PreparedCutter>> prepare_all(std::span<const Cutter> cutters) {
   std::vector<PreparedCutter> out;
   std::vector<Issue> issues;
   for (std::size_t i = 0; i < cutters.size(); ++i) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     auto one = under("cutters/" + std::to_string(i), prepare(cutters[i]));
     if (one) {
       out.push_back(*one);
@@ -49,14 +49,14 @@ Result<void> check_legs(std::span<const PreparedCutter> cutters, double rho) {
 
 }  // namespace
 
-Result<Contour> trace(std::span<const Cutter> cutters, double rho, const std::stop_token& stop) {
+Result<Contour> trace(std::span<const Cutter> cutters, double rho) {
   if (cutters.empty()) return fail({.code = ErrorCode::wrong_count, .member = "cutters"});
   Contour out;
   out.radius = rho;
-  TRY(out.cutters, prepare_all(cutters, stop));
+  TRY(out.cutters, prepare_all(cutters));
   TRY(check_legs(out.cutters, rho));
   for (std::size_t i = 0; i < out.cutters.size(); ++i) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     if (met(out.cutters[i], rho) == Met::never) out.missed.push_back(i);
     if (sin_inclination(out.cutters[i]) < kNearParallel) out.near_parallel.push_back(i);
   }
@@ -67,8 +67,8 @@ Result<Contour> trace(std::span<const Cutter> cutters, double rho, const std::st
                  .limit = 1.0,
                  .hint = "none of " + std::to_string(cutters.size()) +
                          " partners is met on the surface of radius " + brief(rho) + " mm"});
-  auto division = divide(out.cutters, rho, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  auto division = divide(out.cutters, rho);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   if (!division.open.empty())
     return fail(
         {.code = ErrorCode::open_profile,

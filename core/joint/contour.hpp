@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -12,7 +11,7 @@ namespace tubecut::joint {
 
 /// A wall that passes beside its partners by at most this is no overhang, because the coordinates
 /// of models are rounded, and a post is often as wide as its rail.
-inline constexpr double kSlightOverhang = 0.01;  // mm
+inline constexpr double kSlightOverhang = 0.1;  // mm: of models with one decimal
 
 /// The closed curve along which a surface of the target leaves its cutters: z(phi) = max_i z_i.
 struct Contour {
@@ -31,8 +30,7 @@ struct Contour {
 ///           ends above 360); unsupported_combination (an elbow that hides a part of itself; got =
 ///           phi).
 /// Source    docs/theory/intersections-and-bevels.md, sections 1.2 and 3.
-[[nodiscard]] Result<Contour> trace(std::span<const Cutter> cutters, double rho,
-                                    const std::stop_token& stop = {});
+[[nodiscard]] Result<Contour> trace(std::span<const Cutter> cutters, double rho);
 
 /// Returns the segment that contains phi (rad, [0, 2 pi)); at an event, the one that begins there.
 [[nodiscard]] const Segment& segment_at(const Contour& contour, double phi);

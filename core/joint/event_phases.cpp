@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/joint/trig_roots.hpp"
 #include "core/math/rotation.hpp"
 #include "core/math/search.hpp"
@@ -87,23 +88,22 @@ double phase_distance(double a, double b) {
   return std::min(d, kTwoPi - d);
 }
 
-EventPhases::EventPhases(std::span<const PreparedCutter> cutters, double rho,
-                         const std::stop_token& stop)
-    : cutters_(cutters), rho_(rho), stop_(stop) {
+EventPhases::EventPhases(std::span<const PreparedCutter> cutters, double rho)
+    : cutters_(cutters), rho_(rho) {
   for (const auto& cutter : cutters)
-    sheets_.push_back(stop.stop_requested() ? std::vector<Sheets>{} : sheets(cutter, rho));
-  for (std::size_t i = 0; i < cutters.size() && !stop.stop_requested(); ++i) {
+    sheets_.push_back(stopped() ? std::vector<Sheets>{} : sheets(cutter, rho));
+  for (std::size_t i = 0; i < cutters.size() && !stopped(); ++i) {
     met_.push_back(met(cutters[i], rho));
     if (met_[i] != Met::never && !repeats_an_earlier(i)) active_.push_back(i);
   }
   sizes_.resize(cutters.size());
   for (const auto i : active_) {
-    if (stop.stop_requested()) return;
+    if (stopped()) return;
     sizes_[i] = rounding_size(cutters[i], rho);
     add_own(i);
   }
   for (std::size_t a = 0; a < active_.size(); ++a)
-    for (std::size_t b = a + 1; b < active_.size() && !stop_.stop_requested(); ++b)
+    for (std::size_t b = a + 1; b < active_.size() && !stopped(); ++b)
       add_pair(active_[a], active_[b]);
   add_scanned();
   merge();
@@ -185,7 +185,7 @@ void EventPhases::add_scanned() {
 
 /// Processes cells `from` to `to`, in parts if many cutters may be on top.
 void EventPhases::add_cells(std::size_t from, std::size_t to, std::vector<std::size_t> cutters) {
-  if (stop_.stop_requested()) return;
+  if (stopped()) return;
   cutters = on_top(from, to, cutters);
   if (cutters.size() < 2) return;
   const std::size_t part = (to - from) / kParts;
@@ -233,7 +233,7 @@ std::vector<std::size_t> EventPhases::unlike(std::size_t k,
 void EventPhases::add_cell(std::size_t k, const std::vector<std::size_t>& cutters) {
   const auto some = unlike(k, cutters);
   for (std::size_t a = 0; a < some.size(); ++a)
-    for (std::size_t b = a + 1; b < some.size() && !stop_.stop_requested(); ++b)
+    for (std::size_t b = a + 1; b < some.size() && !stopped(); ++b)
       if (scanned(some[a]) || scanned(some[b])) add_in_cell(some[a], some[b], k);
 }
 

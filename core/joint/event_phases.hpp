@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/joint/cutters/cutter.hpp"
@@ -29,7 +28,7 @@ class EventPhases {
   };
 
   /// If cancelled, some are missing.
-  EventPhases(std::span<const PreparedCutter> cutters, double rho, const std::stop_token& stop);
+  EventPhases(std::span<const PreparedCutter> cutters, double rho);
 
   /// Cutters that are hit somewhere and do not repeat an earlier one.
   [[nodiscard]] const std::vector<std::size_t>& active() const { return active_; }
@@ -68,7 +67,6 @@ class EventPhases {
 
   std::span<const PreparedCutter> cutters_;
   double rho_;
-  const std::stop_token& stop_;
   std::vector<std::vector<Sheets>> sheets_;  // for each cutter, its parts
   std::vector<std::size_t> active_;
   std::vector<double> sizes_;                         // of the active ones

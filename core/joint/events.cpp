@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/stop.hpp"
 #include "core/joint/event_phases.hpp"
 
 namespace tubecut::joint {
@@ -15,16 +16,12 @@ constexpr double kBeside = 1e-9;      // rad
 
 class Divider {
  public:
-  Divider(std::span<const PreparedCutter> cutters, double rho, const std::stop_token& stop)
-      : cutters_(cutters),
-        rho_(rho),
-        stop_(stop),
-        found_(cutters, rho, stop),
-        phases_(found_.phases()) {}
+  Divider(std::span<const PreparedCutter> cutters, double rho)
+      : cutters_(cutters), rho_(rho), found_(cutters, rho), phases_(found_.phases()) {}
 
   Division divide() {
     label();
-    if (stop_.stop_requested()) return {};
+    if (stopped()) return {};
     auto out = assemble();
     out.hidden = hidden();
     return out;
@@ -35,7 +32,7 @@ class Divider {
 
   std::optional<Division::Hidden> hidden() {
     for (const auto i : found_.active()) {
-      if (stop_.stop_requested()) break;
+      if (stopped()) break;
       if (!found_.scanned(i)) continue;
       if (std::ranges::find(labels_, Label(i)) == labels_.end()) continue;  // never on top
       const auto phi = found_.hidden_at(i);
@@ -61,7 +58,7 @@ class Divider {
   /// labels_[k] holds between phase k and the next one around the circle.
   void label() {
     if (phases_.empty()) labels_.push_back(label_at(0.5));
-    for (std::size_t k = 0; k < phases_.size() && !stop_.stop_requested(); ++k) {
+    for (std::size_t k = 0; k < phases_.size() && !stopped(); ++k) {
       const double next = k + 1 < phases_.size() ? phases_[k + 1] : phases_[0] + kTwoPi;
       labels_.push_back(label_at(0.5 * (phases_[k] + next)));
     }
@@ -124,7 +121,6 @@ class Divider {
 
   std::span<const PreparedCutter> cutters_;
   double rho_;
-  const std::stop_token& stop_;
   detail::EventPhases found_;
   const std::vector<double>& phases_;
   std::vector<Label> labels_;  // labels_[k] holds between phase k and the next one
@@ -141,8 +137,8 @@ std::optional<Contact> highest(std::span<const PreparedCutter> cutters, const Ge
   return best;
 }
 
-Division divide(std::span<const PreparedCutter> cutters, double rho, const std::stop_token& stop) {
-  return Divider(cutters, rho, stop).divide();
+Division divide(std::span<const PreparedCutter> cutters, double rho) {
+  return Divider(cutters, rho).divide();
 }
 
 }  // namespace tubecut::joint

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -73,7 +72,6 @@ struct Division {
 ///           curve is vertical there).
 /// Cost      quadratic in the number of cutters, about 20 us a pair.
 /// Source    docs/theory/intersections-and-bevels.md, section 3.
-[[nodiscard]] Division divide(std::span<const PreparedCutter> cutters, double rho,
-                              const std::stop_token& stop = {});
+[[nodiscard]] Division divide(std::span<const PreparedCutter> cutters, double rho);
 
 }  // namespace tubecut::joint

@@ -128,8 +128,7 @@ inline constexpr double kLeastShared = 0.01;  // mm
 /// Cost      5 us if the axes are far from each other, 0.1 ms for walls 1 mm from each other, at
 ///           most 10 ms.
 /// Source    docs/theory/intersections-and-bevels.md, section 1.4.
-[[nodiscard]] std::optional<Eigen::Vector3d> shared_metal(const Finished& a, const Finished& b,
-                                                          const std::stop_token& stop);
+[[nodiscard]] std::optional<Eigen::Vector3d> shared_metal(const Finished& a, const Finished& b);
 inline constexpr std::size_t kMostCells = 30'000;
 
 }  // namespace tubecut::joint::detail

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/solid.hpp"
 #include "core/math/cylinder.hpp"
@@ -12,9 +13,8 @@
 namespace tubecut::joint {
 namespace {
 
-Result<Profile> profile(const Contour& contour, const Sampling& sampling, bool outer,
-                        const std::stop_token& stop) {
-  TRY(const auto samples, sample(contour, sampling, {}, stop));
+Result<Profile> profile(const Contour& contour, const Sampling& sampling, bool outer) {
+  TRY(const auto samples, sample(contour, sampling, {}));
   Profile out{.outer = outer, .radius = contour.radius};
   for (const auto& node : samples.nodes) {
     out.phi.push_back(node.phi);
@@ -161,14 +161,14 @@ Result<void> check_length(const Target& target, std::span<const double> z) {
                .unit = "mm"});
 }
 
-Result<Intersection> intersect(const IntersectionSpec& spec, const std::stop_token& stop) {
+Result<Intersection> intersect(const IntersectionSpec& spec) {
   TRY(const auto cutters, resolve(spec.partners));
   Intersection out;
   for (const bool outer : {false, true}) {
     if (spec.surfaces == (outer ? Surfaces::inner : Surfaces::outer)) continue;
     const double rho = outer ? spec.target.outer_radius : spec.target.inner_radius();
-    TRY(const auto contour, trace(cutters, rho, stop));
-    TRY(auto curve, profile(contour, spec.sampling, outer, stop));
+    TRY(const auto contour, trace(cutters, rho));
+    TRY(auto curve, profile(contour, spec.sampling, outer));
     TRY(check_length(spec.target, curve.z));
     out.profiles.push_back(std::move(curve));
     out.warnings = partner_warnings(contour);  // of the outer surface if both are requested
@@ -176,16 +176,14 @@ Result<Intersection> intersect(const IntersectionSpec& spec, const std::stop_tok
   return out;
 }
 
-std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer,
-                          const std::stop_token& stop) {
+std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer) {
   const auto cutters = resolve(spec.partners);
   std::vector<Solid> solids;
   if (cutters)
     for (const auto& cutter : *cutters) solids.emplace_back(cutter);
   Proof proof;
   for (const auto& p : answer.profiles) {
-    for (std::size_t i = 0; i < p.phi.size() && !stop.stop_requested(); ++i)
-      proof.node(solids, p, i);
+    for (std::size_t i = 0; i < p.phi.size() && !stopped(); ++i) proof.node(solids, p, i);
     for (const auto& e : p.events) proof.event(solids, p.radius, e);
   }
   std::vector<Check> out;

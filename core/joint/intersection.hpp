@@ -15,7 +15,6 @@
 //     const double length = cut.profiles[1].length;  // mm, on the outer surface: 208.4
 
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -60,13 +59,11 @@ struct Intersection {
 ///
 /// Errors  those of `resolve`, `trace` and `sample`; member_consumed (target/length).
 /// Source  docs/theory/intersections-and-bevels.md, sections 1 and 3.
-[[nodiscard]] Result<Intersection> intersect(const IntersectionSpec& spec,
-                                             const std::stop_token& stop = {});
+[[nodiscard]] Result<Intersection> intersect(const IntersectionSpec& spec);
 
 /// Verifies the answer in 3D: distances by cross product, heights by the quadratic of line and
 /// cylinder.
-[[nodiscard]] std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer);
 
 /// Returns warnings for partners that no generator meets or that are nearly parallel.
 [[nodiscard]] std::vector<Warning> partner_warnings(const Contour& contour);

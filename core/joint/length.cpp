@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/joint/borders.hpp"
 #include "core/joint/stations.hpp"
 
@@ -211,9 +212,9 @@ class Rule {
   Stations middle_;
 };
 
-void measure(const Contour& contour, std::span<LengthSpan> pieces, const std::stop_token& stop) {
+void measure(const Contour& contour, std::span<LengthSpan> pieces) {
   constexpr std::size_t kAtOnce = 1024;  // some 100 us, and fits in the nearest cache
-  while (!pieces.empty() && !stop.stop_requested()) {
+  while (!pieces.empty() && !stopped()) {
     const auto segment = pieces.front().segment;
     const auto block = pieces.first(std::min(kAtOnce, pieces.size()));
     const auto other = std::ranges::find_if(
@@ -226,14 +227,13 @@ void measure(const Contour& contour, std::span<LengthSpan> pieces, const std::st
 
 }  // namespace
 
-std::vector<double> lengths_along(const Contour& contour, std::span<const double> phases,
-                                  const std::stop_token& stop) {
+std::vector<double> lengths_along(const Contour& contour, std::span<const double> phases) {
   Walk walk(contour);
   walk.stops.reserve(phases.size() + 1);
   walk.pieces.reserve(phases.size() + contour.segments.size() + 1);
   for (const double phi : phases) walk.advance(phi);
   walk.advance(kTwoPi);
-  measure(contour, walk.pieces, stop);
+  measure(contour, walk.pieces);
   std::vector<double> out;
   out.reserve(walk.stops.size());
   double total = 0.0;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/joint/contour.hpp"
@@ -23,8 +22,7 @@ namespace tubecut::joint {
 /// Cost      seven slopes for each smooth gap, vectorised. If cancelled, the rest are 0.
 /// Source    docs/theory/intersections-and-bevels.md, section 3.
 [[nodiscard]] std::vector<double> lengths_along(const Contour& contour,
-                                                std::span<const double> phases,
-                                                const std::stop_token& stop = {});
+                                                std::span<const double> phases);
 
 /// Computes the true length of the whole contour, mm; its developed length is 2 pi radius.
 [[nodiscard]] double true_length(const Contour& contour);

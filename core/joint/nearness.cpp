@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 
 namespace tubecut::joint {
@@ -126,14 +127,14 @@ void search(const Grid& grid, const Stretch& s, std::size_t ends, F visit) {
 /// Calls `see(touch)` for every end within the reach of another axis segment, until it returns
 /// false.
 template <class F>
-Result<void> for_touches(std::span<const Stretch> stretches, const std::stop_token& stop, F see) {
+Result<void> for_touches(std::span<const Stretch> stretches, F see) {
   if (stretches.empty()) return {};
   const Grid grid(stretches);
   const auto ends = 2 * stretches.size();
   std::vector<std::size_t> seen(ends, stretches.size());
   bool more = true;
   for (std::size_t i = 0; i < stretches.size() && more; ++i) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     search(grid, stretches[i], ends, [&](std::size_t end) {
       if (end / 2 == i || seen[end] == i)
         return;  // a cube on the border of two pieces occurs twice
@@ -171,12 +172,11 @@ double nearness(const Stretch& a, const Stretch& b) {
   return out;
 }
 
-Result<std::vector<Touch>> touches(std::span<const Stretch> stretches, std::size_t most,
-                                   const std::stop_token& stop) {
+Result<std::vector<Touch>> touches(std::span<const Stretch> stretches, std::size_t most) {
   std::vector<Touch> out;
   std::vector<std::size_t> count(2 * stretches.size(), 0);
   std::optional<std::size_t> crowded;
-  TRY(for_touches(stretches, stop, [&](const Touch& touch) {
+  TRY(for_touches(stretches, [&](const Touch& touch) {
     out.push_back(touch);
     if (++count[touch.end] > most) crowded = touch.end;
     return !crowded;
@@ -195,13 +195,12 @@ Result<std::vector<Touch>> touches(std::span<const Stretch> stretches, std::size
 }
 
 Result<std::vector<std::optional<Touch>>> nearest_touches(std::span<const Stretch> stretches,
-                                                          const std::vector<bool>& ends,
-                                                          const std::stop_token& stop) {
+                                                          const std::vector<bool>& ends) {
   std::vector<std::optional<Touch>> out(ends.size());
   const auto share = [&](const Touch& touch) {
     return touch.near.distance / stretches[touch.other].reach;
   };
-  TRY(for_touches(stretches, stop, [&](const Touch& touch) {
+  TRY(for_touches(stretches, [&](const Touch& touch) {
     auto& nearest = out[touch.end];
     if (ends[touch.end] && (!nearest || share(touch) < share(*nearest))) nearest = touch;
     return true;

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -40,8 +39,7 @@ struct Touch {
 /// Cost      memory linear; time linear for members of similar size (ends in a grid of the mean
 ///           length and reach), at worst one distance for each end and segment.
 [[nodiscard]] Result<std::vector<Touch>> touches(std::span<const Stretch> stretches,
-                                                 std::size_t most,
-                                                 const std::stop_token& stop = {});
+                                                 std::size_t most);
 
 /// Finds for each of these ends the other segment whose reach contains it, nearest relative to that
 /// reach; empty for all other ends.
@@ -49,7 +47,6 @@ struct Touch {
 /// Errors    cancelled.
 /// Cost      as `touches`, without its limit of the number.
 [[nodiscard]] Result<std::vector<std::optional<Touch>>> nearest_touches(
-    std::span<const Stretch> stretches, const std::vector<bool>& ends,
-    const std::stop_token& stop = {});
+    std::span<const Stretch> stretches, const std::vector<bool>& ends);
 
 }  // namespace tubecut::joint

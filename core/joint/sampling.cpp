@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/length.hpp"
 #include "core/joint/stations.hpp"
@@ -24,9 +25,8 @@ struct Point {
 /// Refines one segment, or a part of it between phases that must be nodes.
 class Refiner {
  public:
-  Refiner(const Contour& contour, const Tolerance& tolerance, std::size_t max_nodes,
-          const std::stop_token& stop)
-      : contour_(contour), tolerance_(tolerance), max_nodes_(max_nodes), stop_(stop) {}
+  Refiner(const Contour& contour, const Tolerance& tolerance, std::size_t max_nodes)
+      : contour_(contour), tolerance_(tolerance), max_nodes_(max_nodes) {}
 
   /// Appends the points strictly between `from` and `to`.
   void refine(std::size_t cutter, Point from, Point to) {
@@ -42,7 +42,7 @@ class Refiner {
     }
   }
 
-  [[nodiscard]] bool ends() const { return points.size() > max_nodes_ || stop_.stop_requested(); }
+  [[nodiscard]] bool ends() const { return points.size() > max_nodes_ || stopped(); }
   [[nodiscard]] Point at(std::size_t cutter, double phi) const {
     return {phi, continued_sheet(contour_.cutters[cutter], generator_at(contour_.radius, phi))};
   }
@@ -80,7 +80,6 @@ class Refiner {
   const Contour& contour_;
   const Tolerance& tolerance_;
   std::size_t max_nodes_;
-  const std::stop_token& stop_;
   std::size_t cutter_ = 0;
 };
 
@@ -155,12 +154,11 @@ tl::unexpected<Error> too_many(std::size_t got, std::size_t limit) {
 }
 
 Result<std::vector<Node>> adaptive_nodes(const Contour& contour, const Sampling& sampling,
-                                         std::span<const double> also,
-                                         const std::stop_token& stop) {
+                                         std::span<const double> also) {
   std::vector<Node> nodes;
-  Refiner refiner(contour, *sampling.tolerance, sampling.max_nodes, stop);
+  Refiner refiner(contour, *sampling.tolerance, sampling.max_nodes);
   for (std::size_t k = 0; k < contour.segments.size(); ++k) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     if (!contour.events.empty()) append_event(nodes, contour.events[k]);
     append_segment(nodes, contour, contour.segments[k], refiner, also);
     if (nodes.size() > sampling.max_nodes) return too_many(nodes.size(), sampling.max_nodes);
@@ -185,15 +183,14 @@ void mark_event(const Contour& contour, Node& node) {
   }
 }
 
-std::vector<Node> uniform_nodes(const Contour& contour, std::size_t n,
-                                const std::stop_token& stop) {
+std::vector<Node> uniform_nodes(const Contour& contour, std::size_t n) {
   std::vector<Node> nodes;
-  if (stop.stop_requested()) return nodes;
+  if (stopped()) return nodes;
   std::vector<double> phases(n);
   for (std::size_t i = 0; i < n; ++i) phases[i] = uniform_phase(i, n);
   const auto contacts = contacts_at(contour, stations_at(contour.radius, phases), phases);
   nodes.reserve(n);
-  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < n && !stopped(); ++i) {
     nodes.push_back(smooth_node(phases[i], contacts.z[i], contacts.cutter[i]));
     mark_event(contour, nodes.back());
   }
@@ -201,8 +198,7 @@ std::vector<Node> uniform_nodes(const Contour& contour, std::size_t n,
 }
 
 /// Adds the uniform points that are not already nodes, the circle's seam included.
-std::vector<Node> with_uniform(const Contour& contour, std::vector<Node> nodes, std::size_t n,
-                               const std::stop_token& stop) {
+std::vector<Node> with_uniform(const Contour& contour, std::vector<Node> nodes, std::size_t n) {
   const double apart = kSameNode / contour.radius;
   const auto taken = [&](double phi) {
     const auto near = std::ranges::lower_bound(nodes, phi - apart, {}, &Node::phi);
@@ -210,20 +206,19 @@ std::vector<Node> with_uniform(const Contour& contour, std::vector<Node> nodes, 
     return nodes.front().phi + kTwoPi <= phi + apart || nodes.back().phi - kTwoPi >= phi - apart;
   };
   std::vector<Node> added;
-  for (auto& node : uniform_nodes(contour, n, stop))
+  for (auto& node : uniform_nodes(contour, n))
     if (!taken(node.phi)) added.push_back(node);
   nodes.insert(nodes.end(), added.begin(), added.end());
   std::ranges::stable_sort(nodes, {}, &Node::phi);
   return nodes;
 }
 
-Result<Samples> measured(const Contour& contour, std::vector<Node> nodes,
-                         const std::stop_token& stop) {
+Result<Samples> measured(const Contour& contour, std::vector<Node> nodes) {
   std::vector<double> phases;
   phases.reserve(nodes.size());
   for (const auto& node : nodes) phases.push_back(node.phi);
-  const auto lengths = lengths_along(contour, phases, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  const auto lengths = lengths_along(contour, phases);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k].length = lengths[k];
   return Samples{std::move(nodes), lengths.back(), kTwoPi * contour.radius};
 }
@@ -231,18 +226,17 @@ Result<Samples> measured(const Contour& contour, std::vector<Node> nodes,
 }  // namespace
 
 Result<Samples> sample(const Contour& contour, const Sampling& sampling,
-                       std::span<const double> also, const std::stop_token& stop) {
+                       std::span<const double> also) {
   const auto& tolerance = sampling.tolerance;
   if (tolerance ? !(tolerance->value > 0.0) : sampling.uniform_points == 0)
     return fail({.code = ErrorCode::out_of_range, .member = "sampling"});
   if (sampling.uniform_points > sampling.max_nodes)
     return too_many(sampling.uniform_points, sampling.max_nodes);
-  if (!tolerance)
-    return measured(contour, uniform_nodes(contour, sampling.uniform_points, stop), stop);
-  TRY(auto nodes, adaptive_nodes(contour, sampling, also, stop));
-  auto all = with_uniform(contour, std::move(nodes), sampling.uniform_points, stop);
+  if (!tolerance) return measured(contour, uniform_nodes(contour, sampling.uniform_points));
+  TRY(auto nodes, adaptive_nodes(contour, sampling, also));
+  auto all = with_uniform(contour, std::move(nodes), sampling.uniform_points);
   if (all.size() > sampling.max_nodes) return too_many(all.size(), sampling.max_nodes);
-  return measured(contour, std::move(all), stop);
+  return measured(contour, std::move(all));
 }
 
 BothSides hits_at(const Contour& contour, const Node& node) {

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -60,8 +59,7 @@ struct Samples {
 ///           stayed within the tolerance.
 /// Source    docs/theory/intersections-and-bevels.md, section 3.
 [[nodiscard]] Result<Samples> sample(const Contour& contour, const Sampling& sampling,
-                                     std::span<const double> also = {},
-                                     const std::stop_token& stop = {});
+                                     std::span<const double> also = {});
 
 /// The contact's normal and derivatives on both sides of a node; equal at smooth nodes.
 struct BothSides {

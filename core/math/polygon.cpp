@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/base/sort.hpp"
 #include "core/base/stop.hpp"
 
 namespace tubecut::math {
@@ -23,19 +22,18 @@ struct Side {
   }
 };
 
-std::vector<Side> sides(std::span<const Polygon> polygons, const Window& window,
-                        const std::stop_token& stop) {
+std::vector<Side> sides(std::span<const Polygon> polygons, const Window& window) {
   std::vector<Side> out;
   for (std::size_t p = 0; p < polygons.size(); ++p) {
     const auto& [x, y] = polygons[p];
-    for (std::size_t i = 0; i < x.size() && !stops(stop, i); ++i) {
+    for (std::size_t i = 0; i < x.size() && !stops(i); ++i) {
       const auto j = (i + 1) % x.size();
       const auto [a, b] = x[i] <= x[j] ? std::pair{i, j} : std::pair{j, i};
       if (x[a] < x[b] && x[b] > window.x_from && x[a] < window.x_to)
         out.push_back({x[a], y[a], x[b], y[b], p});
     }
   }
-  sort_unless_stopped(out, stop, &Side::x0);
+  std::ranges::sort(out, {}, &Side::x0);
   return out;
 }
 
@@ -97,22 +95,21 @@ double area(const Polygon& polygon) {
   return 0.5 * std::abs(twice);
 }
 
-double union_area(std::span<const Polygon> polygons, const Window& window,
-                  const std::stop_token& stop) {
-  const auto all = sides(polygons, window, stop);
+double union_area(std::span<const Polygon> polygons, const Window& window) {
+  const auto all = sides(polygons, window);
   std::vector<double> corners;
   corners.reserve(2 * all.size());
   for (const auto& side : all)
     for (const double x : {side.x0, side.x1})
       corners.push_back(std::clamp(x, window.x_from, window.x_to));
-  sort_unless_stopped(corners, stop);
+  std::ranges::sort(corners);
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
 
   double sum = 0.0;
   std::vector<Side> over;
   std::size_t next = 0;
   for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
-    if (stop.stop_requested()) break;  // because a strip may have hundreds of sides
+    if (stopped()) break;  // because a strip may have hundreds of sides
     const double from = corners[k], to = corners[k + 1];
     std::erase_if(over, [&](const Side& side) { return side.x1 <= from; });
     while (next < all.size() && all[next].x0 <= from) {
@@ -128,8 +125,8 @@ double union_area(std::span<const Polygon> polygons, const Window& window,
   return sum;
 }
 
-double crossed_area(const Polygon& polygon, const std::stop_token& stop) {
-  return std::abs(union_area({&polygon, 1}, {}, stop) - area(polygon));
+double crossed_area(const Polygon& polygon) {
+  return std::abs(union_area({&polygon, 1}, {}) - area(polygon));
 }
 
 }  // namespace tubecut::math

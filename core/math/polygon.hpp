@@ -2,7 +2,6 @@
 
 #include <limits>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 namespace tubecut::math {
@@ -30,13 +29,12 @@ struct Window {
 /// Accuracy  exact except for rounding: about 1e-14 of the area that contains the polygons.
 /// Cost      in the corners n log n, each with k log k for the k edges over one x (k^2 if edges
 ///           cross). If cancelled, returns early with a part of the area.
-[[nodiscard]] double union_area(std::span<const Polygon> polygons, const Window& window = {},
-                                const std::stop_token& stop = {});
+[[nodiscard]] double union_area(std::span<const Polygon> polygons, const Window& window = {});
 
 /// Computes the area that a polygon encloses more than once or in reverse; 0 except for rounding if
 /// it does not cross itself.
 ///
 /// Cost      as union_area's.
-[[nodiscard]] double crossed_area(const Polygon& polygon, const std::stop_token& stop = {});
+[[nodiscard]] double crossed_area(const Polygon& polygon);
 
 }  // namespace tubecut::math

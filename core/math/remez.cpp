@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/stop.hpp"
+
 namespace tubecut::math {
 namespace {
 
@@ -103,12 +105,11 @@ double highest(const std::vector<Extreme>& extrema) {
 
 }  // namespace
 
-Result<RelativeMinimax> relative_minimax(const SampledCurve& curve, int degree,
-                                         std::stop_token stop) {
+Result<RelativeMinimax> relative_minimax(const SampledCurve& curve, int degree) {
   const auto count = static_cast<std::size_t>(degree) + 2;
   auto reference = chebyshev_grid(count, curve.grid.front(), curve.grid.back());
   for (int exchange = 1; exchange <= kMostExchanges; ++exchange) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     auto solved = level_on(curve, reference);
     auto extrema = alternating_extrema(curve, solved.series);
     const double worst = highest(extrema);

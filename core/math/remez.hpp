@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -37,7 +36,6 @@ inline constexpr double kLevelledFloor = 5e-14;
 /// Accuracy  worst <= level (1 + kLevelled) or worst - level <= kLevelledFloor.
 /// Cost      one pass over the grid an exchange, and 41 calls of the curve an extremum.
 /// Source    docs/theory/feed-curves.md, section 4.
-[[nodiscard]] Result<RelativeMinimax> relative_minimax(const SampledCurve& curve, int degree,
-                                                       std::stop_token stop = {});
+[[nodiscard]] Result<RelativeMinimax> relative_minimax(const SampledCurve& curve, int degree);
 
 }  // namespace tubecut::math

@@ -8,12 +8,11 @@
 
 namespace tubecut::part {
 
-Result<void> check_left(const std::vector<WallEnds>& walls, double length,
-                        const std::stop_token& stop) {
+Result<void> check_left(const std::vector<WallEnds>& walls, double length) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [a, b] : walls)
     for (const auto* nodes : {&a.phi, &b.phi})
-      for (std::size_t i = 0; i < nodes->size() && !stops(stop, i); ++i)
+      for (std::size_t i = 0; i < nodes->size() && !stops(i); ++i)
         least = std::min(least, b.at((*nodes)[i]).low - a.at((*nodes)[i]).high);
   if (least > 0.0) return {};
   return fail({.code = ErrorCode::member_consumed,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <stop_token>
 #include <string_view>
 #include <vector>
 
@@ -93,8 +92,7 @@ struct WallEnds {
 
 /// Checks that the two cuts of a wall do not meet. Both are straight between their nodes.
 /// Errors  member_consumed (target/length).
-[[nodiscard]] Result<void> check_left(const std::vector<WallEnds>& walls, double length,
-                                      const std::stop_token& stop);
+[[nodiscard]] Result<void> check_left(const std::vector<WallEnds>& walls, double length);
 
 /// Adds warnings under a path.
 void carry(std::vector<Warning> warnings, std::string_view parent, std::vector<Warning>& out);

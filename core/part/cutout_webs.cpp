@@ -19,6 +19,7 @@ namespace {
 using cutout::Instance;
 
 constexpr double kFine = 1e-3;       // mm, of a chord off its edge
+constexpr double kNoWeb = 0.01;      // mm: no kerf leaves a web so thin
 constexpr double kSamePlace = 1e-9;  // mm, between differences of anchors that count as one
 
 /// One opening on one developed wall: a line that others may share, and where it lies.
@@ -183,7 +184,7 @@ class CutoutSearch {
       const WallPoint shift = b.at - a.at + WallPoint(turn * girth, 0.0);
       if (wall.lines[a.line].box().apart(wall.lines[b.line].box(), shift) > best) continue;
       auto way = way_between(wall, a, b, shift);
-      if (way.length == 0.0) note_crossing(a, b);
+      if (way.length <= kNoWeb) note_crossing(a, b);
       way.from += a.at;
       way.to += a.at;
       const bool first = !a.hole && (b.hole || a.index <= b.index);
@@ -274,9 +275,13 @@ class CutoutSearch {
     const std::string end(joint::end_name(beyond.finish));
     Issue out{.code = ErrorCode::cutout_off_part,
               .member = cutout::path_of(asked),
-              .hint = instance(beyond.instance).name + " reaches " + brief(beyond.by) +
-                      " mm beyond the cut at the " + end};
+              .hint = instance(beyond.instance).name +
+                      (beyond.by < kFine ? std::string(" touches")
+                                         : " reaches " + brief(beyond.by) + " mm beyond") +
+                      " the cut at the " + end};
     if (cutout::count_of(spec.pattern) > 1) {
+      if (beyond.finish && spec.at.from == cutout::Anchor::From::finish)
+        out.hint += "; a pitch counts towards the finish, so from there it is negative";
       out.member += "/pattern";
       out.got = instance(beyond.instance).name;
       return out;
@@ -284,7 +289,7 @@ class CutoutSearch {
     const bool from_there = (spec.at.from == cutout::Anchor::From::finish) == beyond.finish;
     out.member += "/at/z";
     out.got = spec.at.z;
-    out.limit = spec.at.z + (from_there ? beyond.by : -beyond.by);
+    out.limit = spec.at.z + (from_there ? 1.0 : -1.0) * (beyond.by + kFine);
     out.unit = "mm";
     return out;
   }

@@ -132,8 +132,8 @@ std::vector<Shape> with(Mistake mistake, const Shape& shape) {
 
 }  // namespace
 
-std::vector<CheckDimension> check_dimensions(const Shape& shape, const std::stop_token& stop) {
-  return measured(gauges(shape), shape, kRoundMistakes, with, girth(shape), stop);
+std::vector<CheckDimension> check_dimensions(const Shape& shape) {
+  return measured(gauges(shape), shape, kRoundMistakes, with, girth(shape));
 }
 
 }  // namespace tubecut::part

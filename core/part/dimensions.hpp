@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -52,7 +51,6 @@ struct Shape {
 /// each dimension, the mistakes are applied one at a time to this part, and those that change it by
 /// more than 1 mm are listed. If cancelled, returns fewer.
 /// Source  docs/theory/parts.md, section 4.
-[[nodiscard]] std::vector<CheckDimension> check_dimensions(const Shape& shape,
-                                                           const std::stop_token& stop);
+[[nodiscard]] std::vector<CheckDimension> check_dimensions(const Shape& shape);
 
 }  // namespace tubecut::part

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/base/stop.hpp"
 #include "core/part/dimensions.hpp"
 
 /// Dimensions that reveal mistakes, of any kind of part.
@@ -42,7 +42,7 @@ template <class S>
 template <class S, class Mistakes, class With>
 [[nodiscard]] std::vector<CheckDimension> measured(std::vector<Gauge<S>> all, const S& shape,
                                                    const Mistakes& mistakes, const With& with,
-                                                   double girth, const std::stop_token& stop) {
+                                                   double girth) {
   const auto seen = [girth](const Gauge<S>& g, const S& bad) {
     double off = std::abs(g.read(bad) - g.about.value);
     if (g.around) off = std::min(off, girth - off);
@@ -50,7 +50,7 @@ template <class S, class Mistakes, class With>
   };
   for (auto& g : all) g.about.value = g.read(shape);
   for (const auto mistake : mistakes) {
-    if (stop.stop_requested()) break;
+    if (stopped()) break;
     const auto bad = with(mistake, shape);
     for (auto& g : all)
       if (std::ranges::any_of(bad, [&](const S& b) { return seen(g, b); }))

@@ -46,10 +46,10 @@ struct Crowd {
 
 /// Adds the same hole at each position within one revolution.
 void add_turns(const joint::Target& target, const bevel::Hole& hole, double u,
-               const std::stop_token& stop, std::vector<Polygon>& to) {
+               std::vector<Polygon>& to) {
   for (const double turn : {-kTwoPi, 0.0, kTwoPi}) {
-    auto polygon = bevel::slice(target, hole, u, turn, stop);
-    if (stop.stop_requested()) return;
+    auto polygon = bevel::slice(target, hole, u, turn);
+    if (stopped()) return;
     const auto [least, most] = std::ranges::minmax(polygon.x);
     if (most > 0.0 && least < kTwoPi) to.push_back(std::move(polygon));
   }
@@ -76,8 +76,8 @@ Polygon cut_off(const bevel::Table& end, const joint::Target& target, double fac
 }
 
 /// Computes the area (rad mm) of the union within one revolution.
-double within_turn(const std::vector<Polygon>& polygons, const std::stop_token& stop) {
-  return math::union_area(polygons, {.x_from = 0.0, .x_to = kTwoPi}, stop);
+double within_turn(const std::vector<Polygon>& polygons) {
+  return math::union_area(polygons, {.x_from = 0.0, .x_to = kTwoPi});
 }
 
 bool near(const Box& a, const Box& b) {
@@ -118,13 +118,13 @@ std::vector<Crowd> crowds(const Part& part, const std::vector<bevel::Hole>& hole
 
 }  // namespace
 
-bevel::Hole closer_rows(const bevel::Hole& hole, const std::stop_token& stop) {
+bevel::Hole closer_rows(const bevel::Hole& hole) {
   bevel::Hole out;
   const auto n = hole.phi.size();
   const int pieces = hole.phi == hole.phi_inner ? 1 : kRowsPerRow;
   for (auto* column : {&out.phi, &out.z, &out.phi_inner, &out.z_inner})
     column->reserve(n * static_cast<std::size_t>(pieces));
-  for (std::size_t i = 0; i < n && !stops(stop, i); ++i)
+  for (std::size_t i = 0; i < n && !stops(i); ++i)
     for (int piece = 0; piece < pieces; ++piece) {
       const auto next = (i + 1) % n;
       const double share = static_cast<double>(piece) / pieces;
@@ -148,8 +148,7 @@ std::vector<Ring> wall_rings(const joint::Target& target) {
 }
 
 double area_between_cuts(const joint::Target& target, const Part& part,
-                         std::vector<Polygon> polygons, const Ring& ring,
-                         const std::stop_token& stop) {
+                         std::vector<Polygon> polygons, const Ring& ring) {
   double low = lowest(part.start.table), high = highest(part.finish.table);
   for (const auto& polygon : polygons) {
     low = std::min(low, std::ranges::min(polygon.y));
@@ -161,44 +160,42 @@ double area_between_cuts(const joint::Target& target, const Part& part,
   };
   end(part.start, low - 1.0);
   end(part.finish, high + 1.0);
-  const double cut = within_turn(ends, stop);
+  const double cut = within_turn(ends);
   polygons.insert(polygons.end(), ends.begin(), ends.end());
-  return within_turn(polygons, stop) - cut;
+  return within_turn(polygons) - cut;
 }
 
-bool holes_meet(const joint::Target& target, const bevel::Hole& a, const bevel::Hole& b,
-                const std::stop_token& stop) {
+bool holes_meet(const joint::Target& target, const bevel::Hole& a, const bevel::Hole& b) {
   if (!near(box_of(a), box_of(b))) return false;
   for (const double u : {0.0, 0.5, 1.0}) {
     std::vector<Polygon> one, other;
-    add_turns(target, a, u, stop, one);
-    add_turns(target, b, u, stop, other);
-    const double own = within_turn(one, stop), sum = own + within_turn(other, stop);
+    add_turns(target, a, u, one);
+    add_turns(target, b, u, other);
+    const double own = within_turn(one), sum = own + within_turn(other);
     one.insert(one.end(), other.begin(), other.end());
-    if (sum - within_turn(one, stop) > kTouch * own) return true;
+    if (sum - within_turn(one) > kTouch * own) return true;
   }
   return false;
 }
 
-double holes_volume(const joint::Target& target, const Part& part, const std::stop_token& stop) {
+double holes_volume(const joint::Target& target, const Part& part) {
   double sum = 0.0;
   const auto rings = wall_rings(target);
   std::vector<bevel::Hole> holes;
-  for (const auto& placed : part.holes) holes.push_back(closer_rows(placed.hole, stop));
-  if (stop.stop_requested()) return 0.0;
+  for (const auto& placed : part.holes) holes.push_back(closer_rows(placed.hole));
+  if (stopped()) return 0.0;
   for (const auto& crowd : crowds(part, holes))
     for (const auto& ring : rings) {
-      if (stop.stop_requested()) return 0.0;
+      if (stopped()) return 0.0;
       std::vector<Polygon> polygons;
       if (crowd.holes.size() == 1 && !crowd.at_end) {
-        sum +=
-            ring.weight * math::area(bevel::slice(target, *crowd.holes.front(), ring.u, 0.0, stop));
+        sum += ring.weight * math::area(bevel::slice(target, *crowd.holes.front(), ring.u, 0.0));
         continue;
       }
-      for (const auto* hole : crowd.holes) add_turns(target, *hole, ring.u, stop, polygons);
-      sum += ring.weight * (crowd.at_end
-                                ? area_between_cuts(target, part, std::move(polygons), ring, stop)
-                                : within_turn(polygons, stop));
+      for (const auto* hole : crowd.holes) add_turns(target, *hole, ring.u, polygons);
+      sum +=
+          ring.weight * (crowd.at_end ? area_between_cuts(target, part, std::move(polygons), ring)
+                                      : within_turn(polygons));
     }
   return sum;
 }

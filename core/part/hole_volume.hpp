@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <vector>
 
 #include "core/math/polygon.hpp"
@@ -12,11 +11,11 @@ namespace tubecut::part {
 /// the developed surface. They are needed because, if the torch leans across, the lines of such a
 /// row do not cross a radius within the wall in a straight line between those of its neighbours. If
 /// cancelled, returns only some or no rows.
-[[nodiscard]] bevel::Hole closer_rows(const bevel::Hole& hole, const std::stop_token& stop);
+[[nodiscard]] bevel::Hole closer_rows(const bevel::Hole& hole);
 
 /// Returns true if two holes overlap on the bore, in the middle of the wall or outside.
 [[nodiscard]] bool holes_meet(const joint::Target& target, const bevel::Hole& a,
-                              const bevel::Hole& b, const std::stop_token& stop = {});
+                              const bevel::Hole& b);
 
 /// A radius in the wall: the fraction u from the bore to the outside, its radius, and its weight.
 struct Ring {
@@ -29,8 +28,7 @@ struct Ring {
 /// Computes the area (rad mm) of the union of polygons (phi, z) between the cuts of both ends, at
 /// one ring.
 [[nodiscard]] double area_between_cuts(const joint::Target& target, const Part& part,
-                                       std::vector<math::Polygon> polygons, const Ring& ring,
-                                       const std::stop_token& stop = {});
+                                       std::vector<math::Polygon> polygons, const Ring& ring);
 
 /// Computes the volume of wall between the two cuts that the holes remove, mm^3. The walls of a
 /// hole are straight in space from edge to edge. An overlap of two holes counts once, and the
@@ -40,7 +38,6 @@ struct Ring {
 ///           the rows are far from each other (0.05 mm of sag), 1e-6. If holes meet, within 1e-3 of
 ///           the overlap, because its border has corners that move across the wall.
 /// Source    docs/theory/parts.md, section 3.
-[[nodiscard]] double holes_volume(const joint::Target& target, const Part& part,
-                                  const std::stop_token& stop = {});
+[[nodiscard]] double holes_volume(const joint::Target& target, const Part& part);
 
 }  // namespace tubecut::part

@@ -10,6 +10,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/node/overlap.hpp"
+#include "core/joint/node/passing.hpp"
 #include "core/joint/node/shape.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/edge.hpp"
@@ -165,7 +166,11 @@ Result<void> add_holes(const MemberSpec& spec, const joint::NodeSpec& node,
     };
     const bool through = cut.kind == bevel::JointKind::through;
     const auto before = out.holes.size() + out.square_holes.size();
-    if (through && member != spec.member) add(End::start);
+    if (through && member != spec.member) {
+      TRY(joint::check_passes({branch, branch.name}, {node.members[spec.member], "the part"},
+                              "holes/" + std::to_string(i) + "/member"));
+      add(End::start);
+    }
     for (const auto& one : standing)
       if (!through && one.member == member) add(one.end);
     if (out.holes.size() + out.square_holes.size() == before)
@@ -216,7 +221,7 @@ void warn_of_missing(const MemberSpec& spec, const std::vector<Standing>& standi
     const auto other = said.member == spec.member ? said.with : said.member;
     const bool enters =
         said.joint.kind == bevel::JointKind::through
-            ? members[other].half_size() < members[spec.member].half_size()
+            ? joint::which_passes(members[other], members[spec.member]) == joint::Passing::first
             : said.joint.kind == bevel::JointKind::set_in &&
                   std::ranges::any_of(standing, [&](const auto& s) { return s.member == other; });
     const bool asked =
@@ -281,11 +286,11 @@ EndSpec square_end(const bevel::TableSpec& options, double height) {
   return out;
 }
 
-Result<FoundMember> find_member(const MemberSpec& spec, const std::stop_token& stop) {
+Result<FoundMember> find_member(const MemberSpec& spec) {
   auto node = spec.node;
   auto& m = node.members.at(spec.member);
   if (spec.up) m.up = spec.up;
-  const auto nodes = joint::solve(node, stop);
+  const auto nodes = joint::solve(node);
   if (!nodes) {
     auto error = nodes.error();
     const auto own = "members/" + std::to_string(spec.member) + "/up";
@@ -329,7 +334,7 @@ Result<FoundMember> find_member(const MemberSpec& spec, const std::stop_token& s
   out.start_cutters = members_of(start);
   out.finish_cutters = members_of(finish);
   for (auto& warning : about(*nodes, spec.member)) out.warnings.push_back(std::move(warning));
-  TRY(const auto shared, joint::overlaps(node, *nodes, spec.member, stop));
+  TRY(const auto shared, joint::overlaps(node, *nodes, spec.member));
   for (auto& warning : joint::warnings_of(node, shared, spec.member))
     out.warnings.push_back(std::move(warning));
   return out;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/joint/node/node.hpp"
@@ -76,7 +75,6 @@ struct FoundMember {
 /// Warnings  joint_not_stated (the branch's own part would not be cut for the hole's joint),
 ///           hole_missing (a branch that is set in, or passes through, has no hole).
 /// Source    docs/theory/parts.md, section 1.
-[[nodiscard]] Result<FoundMember> find_member(const MemberSpec& spec,
-                                              const std::stop_token& stop = {});
+[[nodiscard]] Result<FoundMember> find_member(const MemberSpec& spec);
 
 }  // namespace tubecut::part

@@ -12,10 +12,10 @@
 #include "core/base/try.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/cut_edges.hpp"
-#include "core/part/cutout_webs.hpp"
 #include "core/part/hole_volume.hpp"
 #include "core/part/opening_order.hpp"
 #include "core/part/place.hpp"
+#include "core/part/text_clearance.hpp"
 #include "core/part/volume.hpp"
 
 namespace tubecut::part {
@@ -24,25 +24,25 @@ namespace {
 using bevel::Table;
 
 /// Cuts the end in its own frame, rotated so that its phi = 0 is the part's.
-Result<End> cut_end(const PartSpec& spec, bool finish, const std::stop_token& stop) {
+Result<End> cut_end(const PartSpec& spec, bool finish) {
   const auto& asked = finish ? spec.finish : spec.start;
   End out{.spec = asked.cut};
   const Angle by = finish ? spec.zero : -spec.zero;
   for (auto& partner : out.spec.partners) partner = turned(partner, by);
-  TRY(out.own, under(joint::end_name(finish), bevel::table(out.spec, stop)));
+  TRY(out.own, under(joint::end_name(finish), bevel::table(out.spec)));
   if (!asked.welded) return out;
   out.weld_length = welded_length(out.spec, out.own);
-  out.groove_volume = groove_volume(out.spec, out.own, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  out.groove_volume = groove_volume(out.spec, out.own);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 
-Result<void> cut_holes(const PartSpec& spec, Part& out, const std::stop_token& stop) {
+Result<void> cut_holes(const PartSpec& spec, Part& out) {
   for (std::size_t i = 0; i < spec.holes.size(); ++i) {
     auto asked = spec.holes[i].hole;
     asked.branch = turned(asked.branch, -spec.zero);
     const auto at = "holes/" + std::to_string(spec.holes[i].asked);
-    TRY(auto cut, under(at, bevel::hole(asked, stop)));
+    TRY(auto cut, under(at, bevel::hole(asked)));
     carry(cut.warnings, at, out.warnings);
     out.hole_specs.push_back(std::move(asked));
     out.hole_cuts.push_back(std::move(cut));
@@ -59,10 +59,10 @@ std::vector<WallEnds> walls_of(const Part& p) {
           {outer_edge(p.start.table), outer_edge(p.finish.table)}};
 }
 
-Lengths lengths(const PartSpec& spec, const Part& p, const std::stop_token& stop) {
+Lengths lengths(const PartSpec& spec, const Part& p) {
   auto out = lengths_along(p, spec, *spec.target.length);
   out.volume = end_volume(p.finish.spec, p.finish.table) - end_volume(p.start.spec, p.start.table) -
-               holes_volume(spec.target, p, stop);
+               holes_volume(spec.target, p);
   for (const auto& one : p.cutouts.instances) out.volume -= p.cutouts.mould_of(one).taken.volume;
   out.mass = out.volume * 1e-9 * spec.density;
   return out;
@@ -94,12 +94,11 @@ std::string asked_hole(const PartSpec& spec, std::size_t hole) {
 /// Warns of holes that run into each other, because no wall is left between them for either weld.
 /// Each requested hole gets one warning that names the earlier ones; the two sides of a through
 /// hole may meet too.
-void warn_of_meeting(const PartSpec& spec, const Part& p, std::vector<Warning>& out,
-                     const std::stop_token& stop) {
+void warn_of_meeting(const PartSpec& spec, const Part& p, std::vector<Warning>& out) {
   std::map<std::size_t, std::set<std::size_t>> met;
   for (std::size_t j = 0; j < p.holes.size(); ++j)
-    for (std::size_t i = 0; i < j && !stop.stop_requested(); ++i)
-      if (holes_meet(spec.target, p.holes[i].hole, p.holes[j].hole, stop))
+    for (std::size_t i = 0; i < j && !stopped(); ++i)
+      if (holes_meet(spec.target, p.holes[i].hole, p.holes[j].hole))
         met[p.holes[j].asked].insert(p.holes[i].asked);
   for (const auto& [hole, others] : met) {
     std::string names;
@@ -119,14 +118,14 @@ struct Beyond {
   bool finish = true;     // at every node, at the finish
 };
 
-Beyond beyond(const Part& p, const bevel::Hole& hole, const std::stop_token& stop) {
+Beyond beyond(const Part& p, const bevel::Hole& hole) {
   Beyond out;
   for (const bool outer : {false, true}) {
     const auto a = outer ? outer_edge(p.start.table) : inner_edge(p.start.table);
     const auto b = outer ? outer_edge(p.finish.table) : inner_edge(p.finish.table);
     const auto& phi = outer ? hole.phi : hole.phi_inner;
     const auto& z = outer ? hole.z : hole.z_inner;
-    for (std::size_t i = 0; i < phi.size() && !stops(stop, i); ++i) {
+    for (std::size_t i = 0; i < phi.size() && !stops(i); ++i) {
       const bool below = z[i] <= a.at(phi[i]).high, above = z[i] >= b.at(phi[i]).low;
       out.anywhere = out.anywhere || below || above;
       out.start = out.start && below;
@@ -138,13 +137,12 @@ Beyond beyond(const Part& p, const bevel::Hole& hole, const std::stop_token& sto
 
 /// Checks the holes against the cuts. A hole entirely in the scrap is an error of the request; one
 /// that extends into a cut may be intended, and so may one side of a brace that passes through.
-Result<void> see_holes(const PartSpec& spec, const Part& p, std::vector<Warning>& out,
-                       const std::stop_token& stop) {
+Result<void> see_holes(const PartSpec& spec, const Part& p, std::vector<Warning>& out) {
   std::vector<Beyond> at;
   std::set<std::size_t> on_part;
   for (const auto& placed : p.holes) {
-    at.push_back(beyond(p, placed.hole, stop));
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    at.push_back(beyond(p, placed.hole));
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     if (!at.back().start && !at.back().finish) on_part.insert(placed.asked);
   }
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -180,16 +178,6 @@ void warn_of_grazing(const PartSpec& spec, Part& out) {
   }
 }
 
-Result<void> cut_cutouts(const PartSpec& spec, Part& out) {
-  if (spec.cutouts.all.empty()) return {};
-  TRY(auto layout, cutout::lay(spec.cutouts.all, cutout_ground(spec, out)));
-  out.cutouts = std::move(layout);
-  TRY(auto report, check_cutouts(spec, out));
-  out.cutout_report = std::move(report);
-  warn_of_grazing(spec, out);
-  return {};
-}
-
 EdgePoint edge_point(const Table& t, bool upwards) {
   const auto edge = outer_edge(t);
   const auto i = edge.extreme(upwards);
@@ -215,21 +203,21 @@ joint::MemberFrame part_frame(const PartSpec& spec, double dz) {
 }
 
 /// Computes all results that follow from the two ends and the holes.
-void assemble(const PartSpec& spec, Part& out, const std::stop_token& stop) {
+void assemble(const PartSpec& spec, Part& out) {
   const double length = *spec.target.length;
   const double dz = -lowest(out.start.own);
   out.frame = part_frame(spec, dz);
   out.start.table = shifted(out.start.own, dz);
-  if (stop.stop_requested()) return;
+  if (stopped()) return;
   out.finish.table = shifted(seen_from_start(out.finish.own, length), dz);
-  if (stop.stop_requested()) return;
+  if (stopped()) return;
   out.start.longest = edge_point(out.start.table, false);
   out.start.shortest = edge_point(out.start.table, true);
   out.finish.longest = edge_point(out.finish.table, true);
   out.finish.shortest = edge_point(out.finish.table, false);
   for (std::size_t i = 0; i < out.hole_cuts.size(); ++i)
     for (const auto& hole : out.hole_cuts[i].holes) {
-      if (stop.stop_requested()) return;
+      if (stopped()) return;
       out.holes.push_back({shifted(hole, dz), i});
     }
   out.marks = marks(spec, out, dz);
@@ -248,29 +236,30 @@ cutout::Ground cutout_ground(const PartSpec& spec, const Part& part) {
           .most_lean = spec.cutouts.most_lean};
 }
 
-Result<Part> part(const PartSpec& spec, const std::stop_token& stop) {
+Result<Part> part(const PartSpec& spec) {
   if (!spec.target.length)
     return fail({.code = ErrorCode::missing_field, .member = "target/length"});
   Part out;
   for (const bool finish : {false, true}) {
-    TRY(auto end, cut_end(spec, finish, stop));
+    TRY(auto end, cut_end(spec, finish));
     // A plane square to the axis has no relevant warnings.
     if ((finish ? spec.finish : spec.start).welded)
       carry(end.own.warnings, joint::end_name(finish), out.warnings);
     (finish ? out.finish : out.start) = std::move(end);
   }
-  TRY(cut_holes(spec, out, stop));
-  assemble(spec, out, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  TRY(check_left(walls_of(out), *spec.target.length, stop));
-  TRY(see_holes(spec, out, out.warnings, stop));
-  warn_of_meeting(spec, out, out.warnings, stop);
-  TRY(cut_cutouts(spec, out));
+  TRY(cut_holes(spec, out));
+  assemble(spec, out);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
+  TRY(check_left(walls_of(out), *spec.target.length));
+  TRY(see_holes(spec, out, out.warnings));
+  warn_of_meeting(spec, out, out.warnings);
+  TRY(add_cutouts_and_texts(spec, out));
+  warn_of_grazing(spec, out);
   out.clocking = clocking_between(spec.start.cut.partners, spec.finish.cut.partners);
-  out.lengths = lengths(spec, out, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  out.check_dimensions = check_dimensions(shape_of(spec, out), stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  out.lengths = lengths(spec, out);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
+  out.check_dimensions = check_dimensions(shape_of(spec, out));
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   out.sequence = sequence(out);
   return out;
 }

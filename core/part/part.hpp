@@ -18,7 +18,6 @@
 //     const double longest = part.lengths.longest;  // mm, tip to tip: 698.4
 
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -28,6 +27,7 @@
 #include "core/bevel/table/table.hpp"
 #include "core/cutout/branch_hole.hpp"
 #include "core/cutout/cutout.hpp"
+#include "core/cutout/text.hpp"
 #include "core/joint/placement.hpp"
 #include "core/part/cutout_report.hpp"
 #include "core/part/dimensions.hpp"
@@ -49,13 +49,14 @@ struct HoleSpec {
   std::size_t asked = 0;  // index of the caller's request: errors name holes/asked
 };
 
-/// A line or point to be drawn on the part's outer surface for the fitter.
+/// A line, point or text to be drawn on the part's outer surface for the fitter.
 struct Mark {
-  enum class Kind { datum_line, part_mark, partner };
+  enum class Kind { datum_line, part_mark, partner, text };
   Kind kind = Kind::datum_line;
   std::string text = {};
-  double phi = 0.0;  // rad
+  double phi = 0.0;  // rad; of a text's anchor
   double z_from = 0.0, z_to = 0.0;
+  std::optional<cutout::Lettering> lettering = {};  // of a text
 };
 
 /// A hole that is cut as a cut-out, because the branch or the part is not round. The branch is
@@ -73,10 +74,11 @@ struct HoleCutout {
   double greatest_gap = 0.0;  // of its edges from the branch, mm
 };
 
-/// Openings for no branch and square holes, and how they are cut.
+/// Openings for no branch and square holes, how they are cut, and texts.
 struct CutoutSpecs {
   std::vector<cutout::Spec> all = {};
   std::vector<HoleCutout> holes = {};
+  std::vector<cutout::TextSpec> texts = {};
   double kerf = 0.0;
   double tolerance = 0.01;       // mm, of the straight ways from row to row
   double most_lean = 0.5 * kPi;  // rad, of the torch across
@@ -142,7 +144,7 @@ struct Part {
   double clocking = 0.0;  // see clocking_between
   Lengths lengths;
   std::vector<CheckDimension> check_dimensions;
-  std::vector<Mark> marks;
+  std::vector<Mark> marks;     // texts last
   std::vector<Step> sequence;  // marks, openings from the finish on, the finish, the start
   std::vector<Warning> warnings;
 };
@@ -154,17 +156,17 @@ struct Part {
 ///         everywhere: the outer edge lies further towards +z.
 /// Errors  those of bevel::table and bevel::hole, under start/..., finish/... and holes/i/...;
 ///         member_consumed (the two cuts meet); hole_off_part (holes/i: all of it is cut off);
-///         those of cutout::lay and check_cutouts; out_of_range (no length).
+///         those of cutout::lay, check_cutouts, cutout::lay_texts and check_texts; out_of_range (no
+///         length).
 /// Accuracy  a point's place in the world within 1e-12 of the lengths involved of the end's own.
 /// Source  docs/theory/parts.md.
-[[nodiscard]] Result<Part> part(const PartSpec& spec, const std::stop_token& stop = {});
+[[nodiscard]] Result<Part> part(const PartSpec& spec);
 
 /// What cut-outs are laid on, once the part's ends are cut.
 [[nodiscard]] cutout::Ground cutout_ground(const PartSpec& spec, const Part& part);
 
 /// The part proved from its own numbers: each end's and hole's own proof (the worst of them all),
 /// and every point placed by a matrix instead of column by column.
-[[nodiscard]] std::vector<Check> verify(const PartSpec& spec, const Part& part,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Check> verify(const PartSpec& spec, const Part& part);
 
 }  // namespace tubecut::part

@@ -11,6 +11,7 @@
 #include "core/part/hole_volume.hpp"
 #include "core/part/part.hpp"
 #include "core/part/square_holes.hpp"
+#include "core/part/text_clearance.hpp"
 #include "core/part/worst_checks.hpp"
 
 namespace tubecut::part {
@@ -31,8 +32,7 @@ struct RigidTransform {
 };
 
 /// Checks that every row of the part's table holds the same points as the end's own.
-double misplaced(const End& end, bool finish, const RigidTransform& place,
-                 const std::stop_token& stop) {
+double misplaced(const End& end, bool finish, const RigidTransform& place) {
   const auto& target = end.spec.target;
   const auto n = end.own.phi.size();
   if (end.table.phi.size() != n) return 1.0;
@@ -61,7 +61,7 @@ double misplaced(const End& end, bool finish, const RigidTransform& place,
     return off;
   };
   const auto zeros = static_cast<std::size_t>(std::ranges::count(end.own.phi, 0.0));
-  for (std::size_t k = 0; k < n && !stop.stop_requested(); ++k) {
+  for (std::size_t k = 0; k < n && !stopped(); ++k) {
     const auto i = !finish ? k : k < zeros ? zeros - 1 - k : n - 1 - (k - zeros);
     worsen(worst, row(k, i));
   }
@@ -104,12 +104,11 @@ double ruled(const bevel::Table& t, const joint::Target& target, double face) {
 
 /// Returns the polygon where a hole's lines cross the radius rho: at acos(p / rho) from their feet,
 /// p from the axis.
-math::Polygon passing(const bevel::Hole& h, const joint::Target& target, double rho,
-                      const std::stop_token& stop) {
+math::Polygon passing(const bevel::Hole& h, const joint::Target& target, double rho) {
   const double inner = target.inner_radius(), outer = target.outer_radius;
   math::Polygon out;
   for (auto* column : {&out.x, &out.y}) column->reserve(h.phi.size());
-  for (std::size_t i = 0; i < h.phi.size() && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i < h.phi.size() && !stops(i); ++i) {
     const Vector3d a = cylinder_point(inner, h.phi_inner[i], 0.0),
                    b = cylinder_point(outer, h.phi[i], 0.0);
     const double turn = a.cross(b).z(), way = (b - a).norm();
@@ -134,23 +133,23 @@ bool apart(const math::Polygon& a, const math::Polygon& b) {
 
 /// Computes the volume of the holes ring by ring: each line's position from its foot, each group
 /// separately.
-double holes_by_rings(const PartSpec& spec, const Part& p, const std::stop_token& stop) {
+double holes_by_rings(const PartSpec& spec, const Part& p) {
   double from = -1e300, to = 1e300;
   for (const auto* z : {&p.start.table.z_inner, &p.start.table.z_outer})
     from = std::max(from, std::ranges::max(*z));
   for (const auto* z : {&p.finish.table.z_inner, &p.finish.table.z_outer})
     to = std::min(to, std::ranges::min(*z));
   std::vector<bevel::Hole> holes;
-  for (const auto& placed : p.holes) holes.push_back(closer_rows(placed.hole, stop));
+  for (const auto& placed : p.holes) holes.push_back(closer_rows(placed.hole));
   double sum = 0.0;
   for (const auto& ring : wall_rings(spec.target)) {
     std::vector<math::Polygon> all, crowded;
     for (const auto& hole : holes) {
-      if (stop.stop_requested()) return 0.0;
-      all.push_back(passing(hole, spec.target, ring.rho, stop));
+      if (stopped()) return 0.0;
+      all.push_back(passing(hole, spec.target, ring.rho));
     }
     for (const auto& polygon : all) {
-      if (stop.stop_requested()) return 0.0;
+      if (stopped()) return 0.0;
       const auto [least, most] = std::ranges::minmax(polygon.y);
       const bool alone =
           least > from && most < to && std::ranges::all_of(all, [&](const math::Polygon& other) {
@@ -171,15 +170,15 @@ double holes_by_rings(const PartSpec& spec, const Part& p, const std::stop_token
       }
     }
     if (!crowded.empty())
-      sum += ring.weight * area_between_cuts(spec.target, p, std::move(crowded), ring, stop);
+      sum += ring.weight * area_between_cuts(spec.target, p, std::move(crowded), ring);
   }
   return sum;
 }
 
-double volume_off(const PartSpec& spec, const Part& p, const std::stop_token& stop) {
+double volume_off(const PartSpec& spec, const Part& p) {
   const double volume = ruled(p.finish.table, spec.target, p.finish.spec.root_face) -
                         ruled(p.start.table, spec.target, p.start.spec.root_face) -
-                        holes_by_rings(spec, p, stop) - cutout::volume_by_rings(p.cutouts);
+                        holes_by_rings(spec, p) - cutout::volume_by_rings(p.cutouts);
   return std::abs(p.lengths.mass / (spec.density * 1e-9) - volume) / std::abs(volume);
 }
 
@@ -219,32 +218,33 @@ double dimensions_off(const PartSpec& spec, const Part& p) {
 
 }  // namespace
 
-std::vector<Check> verify(const PartSpec& spec, const Part& part, const std::stop_token& stop) {
+std::vector<Check> verify(const PartSpec& spec, const Part& part) {
   WorstChecks all;
-  all.see(bevel::verify(part.start.spec, part.start.own, stop), "");
-  all.see(bevel::verify(part.finish.spec, part.finish.own, stop), "");
+  all.see(bevel::verify(part.start.spec, part.start.own), "");
+  all.see(bevel::verify(part.finish.spec, part.finish.own), "");
   for (std::size_t i = 0; i < part.hole_cuts.size(); ++i)
-    all.see(bevel::verify(part.hole_specs[i], part.hole_cuts[i], stop), "hole_");
+    all.see(bevel::verify(part.hole_specs[i], part.hole_cuts[i]), "hole_");
   auto out = all.take();
   if (!part.cutouts.empty())
     for (auto& check : cutout::verify(part.cutouts, cutout_ground(spec, part)))
       out.push_back(std::move(check));
   for (auto& check : verify_square_holes(spec, part)) out.push_back(std::move(check));
+  for (auto& check : verify_texts(part)) out.push_back(std::move(check));
   const Vector3d start = spec.start_frame.rows * (part.frame.origin - spec.start_frame.origin);
   const double length = *spec.target.length;
   Eigen::Matrix3d over = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
   const double scale = spec.target.outer_radius + length;
   double placed = 0.0;
-  worsen(placed, misplaced(part.start, false, {Eigen::Matrix3d::Identity(), start}, stop));
-  worsen(placed, misplaced(part.finish, true, {over, {0.0, 0.0, length - start.z()}}, stop));
+  worsen(placed, misplaced(part.start, false, {Eigen::Matrix3d::Identity(), start}));
+  worsen(placed, misplaced(part.finish, true, {over, {0.0, 0.0, length - start.z()}}));
   for (const auto& hole : part.holes) {
-    if (stop.stop_requested()) break;
+    if (stopped()) break;
     const auto& cut = part.hole_cuts[hole.asked];
     const auto& own = cut.holes[hole.hole.far && cut.holes.size() > 1 ? 1 : 0];
     worsen(placed, misplaced(hole.hole, own, -start.z()));
   }
   out.push_back({"placed", placed, kPlaced * std::max(1.0, 1e-3 * scale), "mm"});
-  out.push_back({"volume", volume_off(spec, part, stop), kVolume, ""});
+  out.push_back({"volume", volume_off(spec, part), kVolume, ""});
   out.push_back({"check_dimensions", dimensions_off(spec, part),
                  kPlaced * std::max(1.0, 1e-3 * scale), "mm"});
   return out;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/angle.hpp"
+#include "core/base/stop.hpp"
 #include "core/joint/contour.hpp"
 #include "core/math/quadrature.hpp"
 #include "core/part/edge.hpp"
@@ -76,8 +77,7 @@ double end_volume(const bevel::TableSpec& spec, const bevel::Table& table) {
   return ring_volume(r.radii, r.edges);
 }
 
-double groove_volume(const bevel::TableSpec& spec, const bevel::Table& table,
-                     const std::stop_token& stop) {
+double groove_volume(const bevel::TableSpec& spec, const bevel::Table& table) {
   const auto cutters = joint::resolve(spec.partners);
   if (!cutters) return 0.0;
   std::vector<joint::PreparedCutter> prepared;
@@ -87,11 +87,11 @@ double groove_volume(const bevel::TableSpec& spec, const bevel::Table& table,
   const auto r = rings(spec, table);
   const Depth depth(spec, std::move(prepared));
   double sum = 0.0;
-  for (std::size_t i = 0; i < table.phi.size() && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < table.phi.size() && !stopped(); ++i) {
     const auto j = (i + 1) % table.phi.size();
     const double step = table.phi[j] - table.phi[i] + (j == 0 ? kTwoPi : 0.0);
     const int pieces = static_cast<int>(std::ceil(step / kPiece));
-    for (int piece = 0; piece < pieces && !stop.stop_requested(); ++piece)
+    for (int piece = 0; piece < pieces && !stopped(); ++piece)
       for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
         const double u = (piece + 0.5 * (1.0 + rule.nodes[k])) / pieces;
         const auto z = [&](std::size_t ring) {

@@ -15,7 +15,6 @@ namespace tubecut::part {
 /// generator that meets no partner adds 0.
 /// Accuracy  1e-3 of itself: Gauss' rules along the cut, straight from row to row, and across it.
 /// Cost      about 0.4 ms; linear in rows and in partners. If cancelled, the value has no meaning.
-[[nodiscard]] double groove_volume(const bevel::TableSpec& spec, const bevel::Table& table,
-                                   const std::stop_token& stop = {});
+[[nodiscard]] double groove_volume(const bevel::TableSpec& spec, const bevel::Table& table);
 
 }  // namespace tubecut::part

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/math/rotation.hpp"
 #include "core/part/wall_line.hpp"
 
@@ -43,12 +44,12 @@ struct Wall {
 /// Finds the narrowest webs on both surfaces.
 class Search {
  public:
-  Search(const Part& part, const std::stop_token& stop) : part_(part), stop_(stop) {}
+  Search(const Part& part) : part_(part) {}
 
   void on(const Wall& wall, Webs& out) const {
     std::vector<WallLine> holes;
     for (const auto& placed : part_.holes) {
-      if (stop_.stop_requested()) return;
+      if (stopped()) return;
       holes.push_back(wall.of(placed.hole));
     }
     between(wall, holes, out);
@@ -73,8 +74,7 @@ class Search {
         bool shorter = false;
         for (int turn = -2; turn <= 2; ++turn) {
           const WallPoint by(turn * kTwoPi * wall.radius, 0.0);
-          if (stop_.stop_requested() || !(holes[i].box().apart(holes[j].box(), by) < best.length))
-            continue;
+          if (stopped() || !(holes[i].box().apart(holes[j].box(), by) < best.length)) continue;
           const double before = best.length;
           if (nested(holes[i], holes[j], by))
             best = {0.0, holes[j].points().front(), holes[j].points().front()};
@@ -89,9 +89,9 @@ class Search {
   void to_end(const Wall& wall, const std::vector<WallLine>& holes, bool finish, Webs& out) const {
     const auto& table = (finish ? part_.finish : part_.start).table;
     const part::Edge edge{table.phi, wall.outer ? table.z_outer : table.z_inner};
-    if (stop_.stop_requested()) return;
+    if (stopped()) return;
     const auto end = wall.of(table);
-    for (std::size_t i = 0; i < holes.size() && !stop_.stop_requested(); ++i) {
+    for (std::size_t i = 0; i < holes.size() && !stopped(); ++i) {
       WallWay best{.length = out.to_end ? out.to_end->width : kFar};
       const double before = best.length;
       // Beyond the cut, no wall is left.
@@ -118,7 +118,6 @@ class Search {
   }
 
   const Part& part_;
-  const std::stop_token& stop_;
 };
 
 }  // namespace
@@ -128,9 +127,9 @@ const std::optional<Web>& Webs::narrowest() const {
   return end ? to_end : between_holes;
 }
 
-Webs webs(const PartSpec& spec, const Part& part, const std::stop_token& stop) {
+Webs webs(const PartSpec& spec, const Part& part) {
   Webs out;
-  const Search search(part, stop);
+  const Search search(part);
   search.on({spec.target.outer_radius, true}, out);
   search.on({spec.target.inner_radius(), false}, out);
   return out;

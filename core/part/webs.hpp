@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 
 #include "core/part/part.hpp"
 
@@ -40,6 +39,6 @@ struct Webs {
 /// Accuracy  exact except for rounding, 1e-12 of the lengths involved.
 /// Cost      about 5 ns for each two segments that come near each other. If cancelled, the value
 ///           has no meaning.
-[[nodiscard]] Webs webs(const PartSpec& spec, const Part& part, const std::stop_token& stop = {});
+[[nodiscard]] Webs webs(const PartSpec& spec, const Part& part);
 
 }  // namespace tubecut::part

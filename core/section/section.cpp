@@ -47,14 +47,16 @@ Result<void> check(const Section& s) {
   const double further_in = s.wall + s.inner_corner - s.corner;
   const double inside =
       further_in <= kHair * s.wall ? s.corner - s.wall : s.inner_corner - kDiagonal * further_in;
-  if (inside < kLeastInside * s.wall * (1.0 - kHair))
+  if (inside < kLeastInside * s.wall * (1.0 - kHair)) {
+    const double not_concentric =
+        s.wall + s.inner_corner - (s.inner_corner - kLeastInside * s.wall) / kDiagonal;
+    const bool concentric =
+        further_in <= kHair * s.wall || not_concentric >= s.wall + s.inner_corner;
     return bad_radius(
-        "corner_radius", s.corner,
-        further_in <= kHair * s.wall
-            ? (1.0 + kLeastInside) * s.wall
-            : s.wall + s.inner_corner - (s.inner_corner - kLeastInside * s.wall) / kDiagonal,
+        "corner_radius", s.corner, concentric ? (1.0 + kLeastInside) * s.wall : not_concentric,
         "the centre of the outer corner must lie inside the bore, or lines across the wall of one "
         "corner would cross; use a larger corner radius");
+  }
   const double diagonal = kDiagonal * s.wall - (kDiagonal - 1.0) * (s.corner - s.inner_corner);
   if (diagonal < kLeastDiagonal * s.wall)
     return bad_radius("inner_corner_radius", s.inner_corner,

@@ -32,18 +32,10 @@ class Loop {
   [[nodiscard]] Way along(std::size_t i) const {
     return (at(i + 1) - at(i + size() - 1)).normalized();
   }
-  /// Where the way from the centre is nearest to square to the cut.
-  [[nodiscard]] std::size_t squarest(const Way& centre) const {
-    std::size_t best = 0;
-    double least = 2.0;
-    for (std::size_t i = 0; i < size(); ++i) {
-      const double off = std::abs((at(i) - centre).normalized().dot(along(i)));
-      if (off < least - 1e-6) {
-        least = off;
-        best = i;
-      }
-    }
-    return best;
+  [[nodiscard]] bool is_corner(std::size_t i) const {
+    constexpr double kStraight = 0.94;  // cos 20 deg
+    const Way before = at(i) - at(i + size() - 1), after = at(i + 1) - at(i);
+    return before.dot(after) < kStraight * before.norm() * after.norm();
   }
 
  private:
@@ -55,44 +47,68 @@ double off_square(const Loop& loop, std::size_t i, const Way& centre) {
   return std::abs((loop.at(i) - centre).normalized().dot(loop.along(i)));
 }
 
-/// Inserts the point nearest to the centre on a long straight piece, because a window has rows at
-/// its corners only; returns its index.
-std::optional<std::size_t> add_foot(const Way& centre, motion::Track& track) {
-  constexpr double kEnds = 0.1;  // of a piece, where no cut begins
-  const Loop loop(track);
-  std::optional<std::size_t> best;
-  double nearest = std::numeric_limits<double>::infinity(), at = 0.0;
+/// A place of the cut: on the piece from this point to the next.
+struct Foot {
+  std::size_t piece = 0;
+  double share = 0.0;
+};
+
+/// Returns the nearest place to which the way from the centre is square: a point, or the foot on a
+/// long straight piece, because a window has rows at its corners only. Not the farthest end of a
+/// slot, to which the way is square too. Without one, the point that is nearest to square.
+Foot nearest_square(const Loop& loop, const Way& centre) {
+  constexpr double kSkew = 0.05;  // more than rows of an arc have
+  constexpr double kEnds = 0.1;   // of a piece at a corner, where no cut begins
+  Foot best, squarest;
+  double nearest = std::numeric_limits<double>::infinity(), least = 2.0;
+  const auto take = [&](std::size_t i, double share, const Way& at) {
+    if (const double far = (at - centre).norm(); far < nearest) {
+      nearest = far;
+      best = {i, share};
+    }
+  };
   for (std::size_t i = 0; i < loop.size(); ++i) {
+    const double off = off_square(loop, i, centre);
+    if (off <= kSkew && !loop.is_corner(i)) take(i, 0.0, loop.at(i));
+    if (off < least) {
+      least = off;
+      squarest = {i, 0.0};
+    }
     const Way piece = loop.at(i + 1) - loop.at(i);
     const double share = (centre - loop.at(i)).dot(piece) / piece.squaredNorm();
-    const double far = (loop.at(i) + share * piece - centre).norm();
-    if (piece.norm() < kLeastArc || !(share > kEnds && share < 1.0 - kEnds) || far >= nearest)
-      continue;
-    nearest = far;
-    best = i;
-    at = share;
+    const double first = loop.is_corner(i) ? kEnds : 0.0;
+    const double last = loop.is_corner(i + 1) ? 1.0 - kEnds : 1.0;
+    if (piece.norm() >= kLeastArc && share > first && share < last)
+      take(i, share, loop.at(i) + share * piece);
   }
-  if (!best) return best;
-  const auto &from = track.points[*best], &to = track.points[*best + 1];
-  auto foot = from;
-  foot.phi += at * (to.phi - from.phi);
-  foot.z += at * (to.z - from.z);
-  foot.b += at * (to.b - from.b);
-  foot.a += at * (to.a - from.a);
-  foot.corner = false;
-  track.points.insert(track.points.begin() + static_cast<std::ptrdiff_t>(*best + 1), foot);
-  return *best + 1;
+  return std::isfinite(nearest) ? best : squarest;
+}
+
+/// Returns the point at a share of the way between two.
+motion::CutPoint between(const motion::CutPoint& from, const motion::CutPoint& to, double share) {
+  auto out = from;
+  out.phi += share * (to.phi - from.phi);
+  out.z += share * (to.z - from.z);
+  out.b += share * (to.b - from.b);
+  out.a += share * (to.a - from.a);
+  out.corner = false;
+  return out;
+}
+
+/// Returns the index of the foot, which is inserted if it is no point of the track.
+std::size_t put_in(const Foot& foot, motion::Track& track) {
+  if (foot.share == 0.0) return foot.piece;
+  const auto point = between(track.points[foot.piece], track.points[foot.piece + 1], foot.share);
+  track.points.insert(track.points.begin() + static_cast<std::ptrdiff_t>(foot.piece + 1), point);
+  return foot.piece + 1;
 }
 
 }  // namespace
 
-Result<motion::CutWithLead> centre_lead(const TorchCut& cut, double overcut) {
-  constexpr double kSkew = 0.05;  // of the way onto the cut, more than rows of an arc have
+Result<motion::CutWithLead> centre_lead(const TorchCut& cut, double overcut, CentreWay way) {
   TRY(auto track, motion::track(motion::without_repeats(cut.path)));
   const Way centre(track.radius * cut.centre->phi, cut.centre->z);
-  auto first = Loop(track).squarest(centre);
-  if (off_square(Loop(track), first, centre) > kSkew)
-    first = add_foot(centre, track).value_or(first);
+  const auto first = put_in(nearest_square(Loop(track), centre), track);
   const Loop loop(track);
   const Way onto = loop.at(first) - centre;
   motion::CutWithLead out;
@@ -103,7 +119,7 @@ Result<motion::CutWithLead> centre_lead(const TorchCut& cut, double overcut) {
     point.corner = false;
     out.points.push_back(point);
   };
-  if (onto.norm() < kLeastArc) {
+  if (way == CentreWay::straight || onto.norm() < kLeastArc) {
     lead_point(centre);
   } else {
     const double sign = std::copysign(1.0, cross(onto, loop.along(first)));
@@ -119,20 +135,29 @@ Result<motion::CutWithLead> centre_lead(const TorchCut& cut, double overcut) {
   double left = overcut;
   for (std::size_t i = 0; left > 0.0 && i < loop.size(); ++i) {
     const double step = (loop.at(first + i + 1) - loop.at(first + i)).norm();
-    auto point = loop.point(first + i + 1);
-    if (step > left) {
-      const double share = left / step;
-      const auto& from = loop.point(first + i);
-      point.phi = from.phi + share * (point.phi - from.phi);
-      point.z = from.z + share * (point.z - from.z);
-      point.a = from.a + share * (point.a - from.a);
-      point.corner = false;
-    }
-    out.points.push_back(point);
+    const auto &from = loop.point(first + i), &to = loop.point(first + i + 1);
+    out.points.push_back(step > left ? between(from, to, left / step) : to);
     left -= step;
   }
   out.cut_last = out.points.size() - 1;
   return out;
+}
+
+TorchCut with_middles(TorchCut cut) {
+  constexpr double kLong = 2.0;  // mm
+  const auto column = [&](const std::vector<double>& of, std::size_t i) {
+    return 0.5 * (of[i] + of[i + 1]);
+  };
+  auto& path = cut.path;
+  for (std::size_t i = path.phi.size() - 1; i-- > 0;) {
+    const double round = path.outer_radius * (path.phi[i + 1] - path.phi[i]);
+    if (elementary::hypot(round, path.z[i + 1] - path.z[i]) < kLong) continue;
+    const auto at = static_cast<std::ptrdiff_t>(i + 1);
+    for (auto* of : {&path.phi, &path.z, &path.b, &path.a})
+      if (!of->empty()) of->insert(of->begin() + at, column(*of, i));
+    if (!path.corner.empty()) path.corner.insert(path.corner.begin() + at, false);
+  }
+  return cut;
 }
 
 }  // namespace tubecut::torch

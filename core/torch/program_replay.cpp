@@ -55,7 +55,6 @@ struct Looked {
   const std::vector<Segment>& segments;
   const std::vector<motion::Event>& events;
   const motion::Counted& counted;
-  std::stop_token stop;
 };
 
 /// Returns the number of borders at which the list of segments differs from the program.
@@ -119,10 +118,9 @@ motion::Counted stretch(const motion::Counted& whole, const Segment& segment,
   return out;
 }
 
-void add_up(const motion::Counted& stretch, const std::stop_token& stop,
-            std::vector<std::int64_t>& sums) {
+void add_up(const motion::Counted& stretch, std::vector<std::int64_t>& sums) {
   for (std::size_t a = 0; a < sums.size(); ++a)
-    for (std::size_t k = 0; k < stretch.counts[a].size() && !stops(stop, k); ++k)
+    for (std::size_t k = 0; k < stretch.counts[a].size() && !stops(k); ++k)
       sums[a] += stretch.counts[a][k];
 }
 
@@ -167,7 +165,7 @@ class Between {
     if (!lifts_) return;
     motion::AxisValues values(counted, machine_);
     double before = height(values.now());
-    for (std::size_t k = 0; k < counted.periods && !stops(l_.stop, k); ++k) {
+    for (std::size_t k = 0; k < counted.periods && !stops(k); ++k) {
       const double b = swing(values.now());
       values.step(k);
       const double now = height(values.now());
@@ -227,7 +225,7 @@ class Between {
 
   /// Returns the periods at the segment's start without any pulse.
   [[nodiscard]] std::size_t still(const motion::Counted& counted) const {
-    for (std::size_t k = 0; k < counted.periods && !stops(l_.stop, k); ++k)
+    for (std::size_t k = 0; k < counted.periods && !stops(k); ++k)
       for (const auto& counts : counted.counts)
         if (!counts.empty() && counts[k] != 0) return k;
     return counted.periods;
@@ -272,7 +270,7 @@ class SeenTabs {
       trails_[k].add({.phi = x[0] - turns, .z = x[1], .b = sign * x[2]});
     };
     add();
-    for (std::size_t p = 0; p < counted.periods && !stops(l_.stop, p); ++p) {
+    for (std::size_t p = 0; p < counted.periods && !stops(p); ++p) {
       values.step(p);
       add();
     }
@@ -285,11 +283,11 @@ class SeenTabs {
       const auto& cut = l_.cuts[k];
       if (!cut.way.points.stretch) continue;
       if (cut.stretch == 0) {
-        TRY(border, torch_border(cut.cut, l_.stop));
+        TRY(border, torch_border(cut.cut));
       }
       const auto &end = trails_[k].end(), &start = trails_[next(k)].start();
       if (end.empty() || start.empty()) continue;
-      const double metal = metal_between(border, cut.cut.kerf, end, start, l_.stop);
+      const double metal = metal_between(border, cut.cut.kerf, end, start);
       const motion::Reconstruction torch(cut_job(l_.spec, cut, 0.0));
       out.see({"tab_width", worst_of({0.0, tabs().width - metal}),
                tab_rounding(torch, cut) + kTabRounding, "mm"});
@@ -322,24 +320,24 @@ Result<void> examine(const Looked& l, bool own, std::vector<Check>& out, double&
   const auto turns = windings(l.cuts);
   std::vector<std::int64_t> sums(l.counted.counts.size(), 0);
   for (const auto& segment : l.segments) {
-    if (l.stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     const auto part = stretch(l.counted, segment, sums);
     const auto& cut = l.cuts[segment.cut];
     if (segment.kind == Kind::rapid) between.see_rapid(cut.cut.path.outer_radius, part);
     if (segment.kind == Kind::pierce) between.see_pierce(cut, turns[segment.cut], part);
     if (segment.kind == Kind::cut || segment.kind == Kind::mark) {
       const auto job = cut_job(l.spec, cut, turns[segment.cut]);
-      TRY(const auto prepared, motion::prepare_cut(job, l.stop));
-      for (const auto& check : motion::place_invariants(prepared, part, l.stop)) all.see(check);
-      const auto followed = motion::path_invariants(job, prepared, part, own, l.stop);
+      TRY(const auto prepared, motion::prepare_cut(job));
+      for (const auto& check : motion::place_invariants(prepared, part)) all.see(check);
+      const auto followed = motion::path_invariants(job, prepared, part, own);
       for (const auto& check : followed.checks) all.see(check);
       worsen(deviation, followed.deviation);
       tabs.follow(segment.cut, turns[segment.cut], part);
     }
-    add_up(part, l.stop, sums);
+    add_up(part, sums);
   }
   const auto& machine = l.spec.machine;
-  for (const auto& check : motion::rate_invariants(machine, l.counted, l.spec.motion.jerk, l.stop))
+  for (const auto& check : motion::rate_invariants(machine, l.counted, l.spec.motion.jerk))
     all.see(check);
   all.see({"torch_lit", wrongly_lit(l), 0.0, "periods"});
   TRY(tabs.report(all));
@@ -350,11 +348,10 @@ Result<void> examine(const Looked& l, bool own, std::vector<Check>& out, double&
 
 }  // namespace
 
-std::vector<Check> verify(const ProgramSpec& spec, const ProgramSchedule& schedule,
-                          const std::stop_token& stop) {
+std::vector<Check> verify(const ProgramSpec& spec, const ProgramSchedule& schedule) {
   const auto& whole = schedule.whole;
   const std::vector<Check> misfit{{"replayable", 1.0, 0.0, ""}};
-  const auto cuts = program_cuts(spec, stop);
+  const auto cuts = program_cuts(spec);
   if (!cuts || whole.axes.size() != spec.machine.axes.size() ||
       whole.period != spec.machine.period || whole.periods <= 0)
     return misfit;
@@ -364,7 +361,7 @@ std::vector<Check> verify(const ProgramSpec& spec, const ProgramSchedule& schedu
     counted.counts.emplace_back(axis.counts);
     counted.start.push_back(axis.start);
   }
-  const Looked looked{spec, *cuts, schedule.segments, whole.events, counted, stop};
+  const Looked looked{spec, *cuts, schedule.segments, whole.events, counted};
   std::vector<Check> out{{"I1", 0.0, 0.0, "pulses"},
                          {"segments_join", wrong_borders(looked), 0.0, ""}};
   double deviation = 0.0;
@@ -372,26 +369,25 @@ std::vector<Check> verify(const ProgramSpec& spec, const ProgramSchedule& schedu
   return examine(looked, true, out, deviation) ? out : misfit;
 }
 
-Result<motion::Replay> replay(const ProgramReplaySpec& spec, const std::stop_token& stop) {
+Result<motion::Replay> replay(const ProgramReplaySpec& spec) {
   TRY(motion::check(spec.job.machine));
-  TRY(const auto cuts, program_cuts(spec.job, stop));
-  TRY(const auto whole,
-      motion::received(spec.job.machine, spec.period, spec.counts, spec.start, stop));
+  TRY(const auto cuts, program_cuts(spec.job));
+  TRY(const auto whole, motion::received(spec.job.machine, spec.period, spec.counts, spec.start));
   const auto counted = whole.counted();
   auto segments = spec.segments;
   const auto expected = expected_segments(cuts);
   for (std::size_t k = 0; k < segments.size(); ++k)
     segments[k].cut = k < expected.size() ? expected[k].cut : cuts.size() - 1;
-  const Looked looked{spec.job, cuts, segments, spec.events, counted, stop};
+  const Looked looked{spec.job, cuts, segments, spec.events, counted};
   motion::Replay out;
   out.invariants = {{"I1", whole.worst, 0.0, "pulses"},
                     {"segments_join", wrong_borders(looked), 0.0, ""}};
-  motion::rebuild(cut_job(spec.job, cuts.front(), 0.0), counted, out, stop);
+  motion::rebuild(cut_job(spec.job, cuts.front(), 0.0), counted, out);
   if (out.invariants.back().passed()) {
     if (auto ok = examine(looked, false, out.invariants, out.deviation); !ok)
       return tl::unexpected<Error>(ok.error());
   }
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 

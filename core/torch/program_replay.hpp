@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/replay/replay.hpp"
@@ -32,12 +31,10 @@ struct ProgramReplaySpec {
 ///
 /// Errors  wrong_count, bad_number, and those of the job itself.
 /// Source  docs/theory/pulse-schedules.md, sections 9 and 11.
-[[nodiscard]] Result<motion::Replay> replay(const ProgramReplaySpec& spec,
-                                            const std::stop_token& stop = {});
+[[nodiscard]] Result<motion::Replay> replay(const ProgramReplaySpec& spec);
 
 /// Checks the same on our own answer. If it does not fit its request, it fails the check
 /// `replayable`.
-[[nodiscard]] std::vector<Check> verify(const ProgramSpec& spec, const ProgramSchedule& schedule,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Check> verify(const ProgramSpec& spec, const ProgramSchedule& schedule);
 
 }  // namespace tubecut::torch

@@ -130,13 +130,11 @@ Result<void> check_periods(const ProgramSpec& spec, const std::vector<ProgramCut
 
 class Scheduling {
  public:
-  Scheduling(const ProgramSpec& spec, std::vector<ProgramCut> cuts, TorchStand stand,
-             const std::stop_token& stop)
+  Scheduling(const ProgramSpec& spec, std::vector<ProgramCut> cuts, TorchStand stand)
       : spec_(spec),
         turns_(windings(cuts)),
         stand_(std::move(stand)),
-        counter_(spec.machine, stand_.clear(over(cuts, 0))),
-        stop_(stop) {
+        counter_(spec.machine, stand_.clear(over(cuts, 0))) {
     out_.cuts = std::move(cuts);
   }
 
@@ -155,7 +153,7 @@ class Scheduling {
       TRY(told(last, leg({.to = stand_.clear(counter_.at())})));
       end();
     }
-    if (stop_.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     return finished();
   }
 
@@ -196,7 +194,7 @@ class Scheduling {
     const auto n = static_cast<std::size_t>(periods);
     counter_.expect(static_cast<std::int64_t>(n) + kRest);
     auto q = move.to;
-    for (std::size_t k = 1; k < n && !stops(stop_, k); ++k) {
+    for (std::size_t k = 1; k < n && !stops(k); ++k) {
       const double u = curve->at(curve->time() * static_cast<double>(k) / periods);
       for (std::size_t a = 0; a < q.size(); ++a)
         q[a] = move.from[a] + u * (move.to[a] - move.from[a]);
@@ -237,7 +235,7 @@ class Scheduling {
   Result<void> cut(std::size_t i, bool mark) {
     auto job = cut_job(spec_, out_.cuts[i], turns_[i]);
     job.max_periods = spec_.max_periods - counter_.periods();
-    TRY(auto planned, in_room(motion::plan_cut(job, stop_)));
+    TRY(auto planned, in_room(motion::plan_cut(job)));
     begin(mark ? Segment::Kind::mark : Segment::Kind::cut, i);
     const auto from = counter_.periods();
     if (mark) event(EventKind::mark_on, i);
@@ -248,7 +246,7 @@ class Scheduling {
       event.cut = i;
       out_.whole.events.push_back(event);
     }
-    counter_.follow(planned, stop_);
+    counter_.follow(planned);
     if (mark) event(EventKind::mark_off, i);
     end();
     for (auto& zone : planned.report.slow) {
@@ -261,7 +259,7 @@ class Scheduling {
       out_.whole.warnings.push_back(std::move(warning));
     }
     if (!mark) report_.add(planned.report);
-    out_.segments.back().sums = counter_.sums_from(from, stop_);
+    out_.segments.back().sums = counter_.sums_from(from);
     out_.segments.back().report = std::move(planned.report);
     return {};
   }
@@ -296,7 +294,6 @@ class Scheduling {
   std::vector<double> turns_;
   TorchStand stand_;
   motion::PulseCounter counter_;
-  std::stop_token stop_;
   ProgramSchedule out_ = {};
   WholeReport report_ = {};
 };
@@ -345,7 +342,7 @@ motion::ScheduleSpec cut_job(const ProgramSpec& spec, const ProgramCut& cut, dou
   return out;
 }
 
-Result<std::vector<ProgramCut>> program_cuts(const ProgramSpec& spec, const std::stop_token& stop) {
+Result<std::vector<ProgramCut>> program_cuts(const ProgramSpec& spec) {
   std::vector<ProgramCut> out;
   for (const auto& cut : spec.cuts) {
     if (!cut.path.a.empty())
@@ -353,20 +350,20 @@ Result<std::vector<ProgramCut>> program_cuts(const ProgramSpec& spec, const std:
           cut,
           Issue{.code = ErrorCode::unsupported_combination,
                 .hint = "its torch leans across the tube, and the machine has no axis for it"}));
-    auto made = followed_cut(spec, cut, &cut == &spec.cuts.back(), stop);
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    auto made = followed_cut(spec, cut, &cut == &spec.cuts.back());
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     if (!made) return tl::unexpected(told_of(cut, std::move(made).error()));
     std::ranges::move(*made, std::back_inserter(out));
   }
   return out;
 }
 
-Result<ProgramSchedule> schedule(const ProgramSpec& spec, const std::stop_token& stop) {
+Result<ProgramSchedule> schedule(const ProgramSpec& spec) {
   TRY(motion::check(spec.machine));
-  TRY(auto cuts, program_cuts(spec, stop));
+  TRY(auto cuts, program_cuts(spec));
   TRY(check_periods(spec, cuts));
   TRY(auto stand, TorchStand::of(spec.machine, cuts.front().cut.path, spec.setup));
-  return Scheduling(spec, std::move(cuts), std::move(stand), stop).run();
+  return Scheduling(spec, std::move(cuts), std::move(stand)).run();
 }
 
 }  // namespace tubecut::torch

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -56,8 +55,7 @@ struct ProgramSchedule {
 /// Accuracy  counts within half a pulse of the ideal at every period of the whole.
 /// Cost      that of each cut's schedule; rapids a few operations a period.
 /// Source    docs/theory/pulse-schedules.md, section 11.
-[[nodiscard]] Result<ProgramSchedule> schedule(const ProgramSpec& spec,
-                                               const std::stop_token& stop = {});
+[[nodiscard]] Result<ProgramSchedule> schedule(const ProgramSpec& spec);
 
 /// The segments of these cuts, in order, without the last rapid of machines that lift.
 struct Expected {
@@ -73,7 +71,6 @@ struct Expected {
 /// Returns all of its cuts, with their points.
 ///
 /// Errors  as `schedule`.
-[[nodiscard]] Result<std::vector<ProgramCut>> program_cuts(const ProgramSpec& spec,
-                                                           const std::stop_token& stop);
+[[nodiscard]] Result<std::vector<ProgramCut>> program_cuts(const ProgramSpec& spec);
 
 }  // namespace tubecut::torch

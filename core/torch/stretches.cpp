@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/path/chords.hpp"
 #include "core/motion/path/stretch.hpp"
@@ -43,19 +44,19 @@ Walls on_walls(const motion::PartBorder& border, const Points& way) {
 }
 
 /// Returns the smallest distance of one path's points to the other path, on the same wall, mm.
-double distance(const Walls& from, const Walls& to, const std::stop_token& stop) {
+double distance(const Walls& from, const Walls& to) {
   double out = 1e300;
   for (std::size_t wall = 0; wall < from.size(); ++wall)
     for (const auto& point : from[wall].points) {
-      if (stop.stop_requested()) return out;  // because an iteration covers all of the other path
+      if (stopped()) return out;  // because an iteration covers all of the other path
       out = motion::nearer(out, point, to[wall]);
     }
   return out;
 }
 
 /// The same in both directions.
-double apart(const Walls& one, const Walls& other, const std::stop_token& stop) {
-  return std::min(distance(one, other, stop), distance(other, one, stop));
+double apart(const Walls& one, const Walls& other) {
+  return std::min(distance(one, other), distance(other, one));
 }
 
 /// Returns the length of a path before its cut begins, mm.
@@ -100,13 +101,12 @@ class TabbedWays {
  public:
   /// `more`: of each tab, mm.
   TabbedWays(motion::Track whole, motion::PartBorder border, const TorchCut& cut, const Tabs& tabs,
-             std::vector<double> more, const std::stop_token& stop)
+             std::vector<double> more)
       : whole_(std::move(whole)),
         length_(motion::lengths_along(whole_)),
         border_(std::move(border)),
         least_(tabs.width + cut.kerf),
-        more_(std::move(more)),
-        stop_(stop) {
+        more_(std::move(more)) {
     more_.resize(static_cast<std::size_t>(tabs.count), 0.0);
   }
 
@@ -152,7 +152,7 @@ class TabbedWays {
     if (!asked) return TorchWay{{track.points, 0, track.points.size() - 1, true}, 0.0};
     auto lead = *asked;
     lead.shape = motion::Lead::Shape::square;
-    TRY(auto way, way_with_lead(border_, track, lead, stop_));
+    TRY(auto way, way_with_lead(border_, track, lead));
     way.points.stretch = true;
     return way;
   }
@@ -166,19 +166,19 @@ class TabbedWays {
         on_walls(border_, turned(near_end(after.points.points, whole_.radius, along, false), turn));
     const auto end_is_off = [&](double gap) {
       const auto end = on_walls(border_, {motion::at_length(whole_, length_, s.to - gap)});
-      return distance(end, near, stop_) >= least;
+      return distance(end, near) >= least;
     };
     const auto all_is_off = [&](double gap) {
       const auto points = motion::stretch_of(whole_, length_, s.from, s.to - gap).points;
       const auto end = near_end(points, whole_.radius, kNear * least, true);
-      return apart(on_walls(border_, end), near, stop_) >= least - kExact;
+      return apart(on_walls(border_, end), near) >= least - kExact;
     };
     const double most = std::min(kWidest * least, 0.5 * (s.to - s.from));
     double gap = least;
     while (gap <= most && !end_is_off(gap)) gap += kStep;
     if (gap <= most) gap = least_gap(std::max(least, gap - kStep), gap, end_is_off);
-    while (gap <= most && !stop_.stop_requested() && !all_is_off(gap)) gap += kStep;
-    if (stop_.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    while (gap <= most && !stopped() && !all_is_off(gap)) gap += kStep;
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     if (gap > most)
       return fail({.code = ErrorCode::lead_blocked,
                    .member = "tabs/width_mm",
@@ -212,7 +212,6 @@ class TabbedWays {
   motion::PartBorder border_;
   double least_;  // mm, from axis to axis of the torch
   std::vector<double> more_;
-  const std::stop_token& stop_;
 };
 
 }  // namespace
@@ -234,13 +233,12 @@ bool holds(const Tabs& tabs, const TorchCut& cut, bool last) {
 }
 
 Result<std::vector<TorchWay>> ways_between_tabs(const TorchCut& cut, const Approach& approach,
-                                                const Tabs& tabs, const std::vector<double>& more,
-                                                const std::stop_token& stop) {
+                                                const Tabs& tabs, const std::vector<double>& more) {
   const auto path = motion::without_repeats(cut.path);
   TRY(auto whole, motion::track(path));
   TRY(auto from, motion::directed(std::move(whole), motion::Direction::as_given, approach.start));
-  TRY(auto border, torch_border(cut, stop));
-  return TabbedWays(std::move(from), std::move(border), cut, tabs, more, stop)
+  TRY(auto border, torch_border(cut));
+  return TabbedWays(std::move(from), std::move(border), cut, tabs, more)
       .run(approach.lead, tabs.count);
 }
 
@@ -266,17 +264,17 @@ Points near_end(const Points& way, double radius, double length, bool end) {
 }
 
 double metal_between(const motion::PartBorder& border, double kerf, const Points& end,
-                     const Points& start, const std::stop_token& stop) {
+                     const Points& start) {
   const double turn = kTwoPi * std::floor((end.front().phi - start.front().phi) / kTwoPi + 0.5);
-  return apart(on_walls(border, end), on_walls(border, turned(start, turn)), stop) - kerf;
+  return apart(on_walls(border, end), on_walls(border, turned(start, turn))) - kerf;
 }
 
 double metal_between(const motion::PartBorder& border, const TorchCut& cut, const Tabs& tabs,
-                     const TorchWay& before, const TorchWay& after, const std::stop_token& stop) {
+                     const TorchWay& before, const TorchWay& after) {
   const auto beside = beside_tab(cut, tabs, before, after);
   const double radius = cut.path.radius();
   return metal_between(border, cut.kerf, near_end(before.points.points, radius, beside.end, true),
-                       near_end(after.points.points, radius, beside.start, false), stop);
+                       near_end(after.points.points, radius, beside.start, false));
 }
 
 }  // namespace tubecut::torch

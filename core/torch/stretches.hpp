@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <vector>
 
 #include "core/torch/tabs.hpp"
@@ -24,8 +23,7 @@ namespace tubecut::torch {
 [[nodiscard]] Result<std::vector<TorchWay>> ways_between_tabs(const TorchCut& cut,
                                                               const Approach& approach,
                                                               const Tabs& tabs,
-                                                              const std::vector<double>& more = {},
-                                                              const std::stop_token& stop = {});
+                                                              const std::vector<double>& more = {});
 
 /// The lengths of two paths that are checked next to the tab between them, mm along the tip's path:
 /// of the cut that ends there, and of the next one with its lead-in. Four widths of the tab.
@@ -45,11 +43,9 @@ struct BesideTab {
 /// between the two are ignored.
 [[nodiscard]] double metal_between(const motion::PartBorder& border, double kerf,
                                    const std::vector<motion::CutPoint>& end,
-                                   const std::vector<motion::CutPoint>& start,
-                                   const std::stop_token& stop = {});
+                                   const std::vector<motion::CutPoint>& start);
 /// The same for two paths as placed.
 [[nodiscard]] double metal_between(const motion::PartBorder& border, const TorchCut& cut,
-                                   const Tabs& tabs, const TorchWay& before, const TorchWay& after,
-                                   const std::stop_token& stop = {});
+                                   const Tabs& tabs, const TorchWay& before, const TorchWay& after);
 
 }  // namespace tubecut::torch

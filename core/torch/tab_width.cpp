@@ -23,16 +23,15 @@ double sign_of(const motion::Machine& machine) {
 }
 
 /// Returns the points of the smoothed path of one segment, as the torch counts B.
-Result<Trail> followed(const ProgramSpec& spec, const ProgramCut& cut, const BesideTab& beside,
-                       const std::stop_token& stop) {
+Result<Trail> followed(const ProgramSpec& spec, const ProgramCut& cut, const BesideTab& beside) {
   const auto job = cut_job(spec, cut, 0.0);
-  TRY(const auto program, motion::program(job, stop));
-  TRY(const auto path, motion::smooth_path(program, job.motion.eps_tip, job.motion.eps_b, stop));
+  TRY(const auto program, motion::program(job));
+  TRY(const auto path, motion::smooth_path(program, job.motion.eps_tip, job.motion.eps_b));
   // A machine that does not swing is square.
   const double sign = motion::Reconstruction(job).knows(2) ? sign_of(spec.machine) : 0.0;
   Trail out(cut.cut.path.radius(), beside.start, beside.end);
   motion::PathCursor cursor(path, false);
-  for (std::size_t i = 0; i < path.intervals() && !stops(stop, i); ++i)
+  for (std::size_t i = 0; i < path.intervals() && !stops(i); ++i)
     for (int k = i == 0 ? 0 : 1; k <= kInKnot; ++k) {
       const auto x = cursor.at(i, path.d * k / kInKnot).x;
       out.add({.phi = x[0], .z = x[1], .b = sign * x[2]});
@@ -42,7 +41,7 @@ Result<Trail> followed(const ProgramSpec& spec, const ProgramCut& cut, const Bes
 
 /// Returns how much each tab is narrower than required, mm; negative: wider.
 Result<std::vector<double>> lacking(const ProgramSpec& spec, const std::vector<ProgramCut>& cuts,
-                                    const motion::PartBorder& border, const std::stop_token& stop) {
+                                    const motion::PartBorder& border) {
   const auto& tabs = *spec.setup.tabs;
   const auto n = cuts.size();
   std::vector<Trail> trails;
@@ -50,17 +49,17 @@ Result<std::vector<double>> lacking(const ProgramSpec& spec, const std::vector<P
   for (std::size_t k = 0; k < n; ++k)
     beside.push_back(beside_tab(cuts[k].cut, tabs, cuts[k].way, cuts[(k + 1) % n].way));
   for (std::size_t k = 0; k < n; ++k) {
-    TRY(auto trail, followed(spec, cuts[k], {beside[k].end, beside[(k + n - 1) % n].start}, stop));
+    TRY(auto trail, followed(spec, cuts[k], {beside[k].end, beside[(k + n - 1) % n].start}));
     trails.push_back(std::move(trail));
   }
   const motion::Reconstruction torch(cut_job(spec, cuts.front(), 0.0));
   std::vector<double> out;
-  for (std::size_t k = 0; k < n && !stop.stop_requested(); ++k) {
+  for (std::size_t k = 0; k < n && !stopped(); ++k) {
     const double metal =
-        metal_between(border, cuts[k].cut.kerf, trails[k].end(), trails[(k + 1) % n].start(), stop);
+        metal_between(border, cuts[k].cut.kerf, trails[k].end(), trails[(k + 1) % n].start());
     out.push_back(tabs.width + tab_rounding(torch, cuts[k]) + kSampled - metal);
   }
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 
@@ -108,14 +107,14 @@ double tab_rounding(const motion::Reconstruction& torch, const ProgramCut& cut) 
 }
 
 Result<std::vector<ProgramCut>> followed_cut(const ProgramSpec& spec, const TorchCut& cut,
-                                             bool last, const std::stop_token& stop) {
+                                             bool last) {
   if (!spec.setup.tabs || !holds(*spec.setup.tabs, cut, last))
-    return program_cut(cut, spec.setup, last, {}, stop);
-  TRY(const auto border, torch_border(cut, stop));
+    return program_cut(cut, spec.setup, last, {});
+  TRY(const auto border, torch_border(cut));
   std::vector<double> more(static_cast<std::size_t>(spec.setup.tabs->count), 0.0);
   for (int round = 0; round < kRounds; ++round) {
-    TRY(auto cuts, program_cut(cut, spec.setup, last, more, stop));
-    TRY(const auto lacks, lacking(spec, cuts, border, stop));
+    TRY(auto cuts, program_cut(cut, spec.setup, last, more));
+    TRY(const auto lacks, lacking(spec, cuts, border));
     bool enough = true;
     for (std::size_t k = 0; k < lacks.size(); ++k) {
       if (!(lacks[k] > kEnough)) continue;

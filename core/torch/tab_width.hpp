@@ -2,7 +2,6 @@
 
 #include <deque>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/replay/reconstruction.hpp"
@@ -49,7 +48,6 @@ class Trail {
 /// Cost    that of program_cut and of smoothing each segment, two or three times.
 /// Source  docs/theory/pulse-schedules.md, section 11.
 [[nodiscard]] Result<std::vector<ProgramCut>> followed_cut(const ProgramSpec& spec,
-                                                           const TorchCut& cut, bool last,
-                                                           const std::stop_token& stop = {});
+                                                           const TorchCut& cut, bool last);
 
 }  // namespace tubecut::torch

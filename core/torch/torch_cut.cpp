@@ -66,6 +66,18 @@ TorchCut hole_cut(const bevel::HoleSpec& spec, const bevel::Hole& hole, std::str
   return out;
 }
 
+/// Gives places that differ by rounding only the same numbers: in a corner of half the kerf the
+/// torch stands while the edge's rows go round, and a path must not seem to turn back there.
+void stand_still(motion::CutPath& path) {
+  constexpr double kRounding = 1e-9;  // mm
+  for (std::size_t i = 1; i < path.phi.size(); ++i) {
+    const double round = path.outer_radius * (path.phi[i] - path.phi[i - 1]);
+    if (elementary::hypot(round, path.z[i] - path.z[i - 1]) > kRounding) continue;
+    path.phi[i] = path.phi[i - 1];
+    path.z[i] = path.z[i - 1];
+  }
+}
+
 /// `tube`: the path without points.
 TorchCut cutout_cut(const cutout::Layout& layout, std::size_t index, double kerf,
                     motion::CutPath tube) {
@@ -83,6 +95,7 @@ TorchCut cutout_cut(const cutout::Layout& layout, std::size_t index, double kerf
   if (std::ranges::any_of(rows.a, [](double a) { return a != 0.0; })) out.path.a = rows.a;
   for (auto* column : {&out.path.phi, &out.path.z, &out.path.b, &out.path.a})
     if (!column->empty()) column->push_back(column->front());
+  stand_still(out.path);
   const double turn = mould.laying.turn(mould.centre.y(), mould.laying.outer());
   out.centre = {one.phi + mould.laying.phase(turn), one.z + mould.centre.x()};
   return out;
@@ -108,13 +121,12 @@ motion::CutWithLead once_round(const motion::CutPath& path) {
 /// Returns the cut with these leads; empty when they or the pierce are too near the part.
 Result<std::optional<motion::CutWithLead>> lead_and_pierce(const motion::PartBorder& border,
                                                            const motion::Track& from,
-                                                           const motion::Lead& lead,
-                                                           const std::stop_token& stop) {
+                                                           const motion::Lead& lead) {
   using Found = std::optional<motion::CutWithLead>;
-  auto way = motion::clear_lead(border, from, lead, kTouching, stop);
+  auto way = motion::clear_lead(border, from, lead, kTouching);
   if (!way && way.error().code() == ErrorCode::lead_blocked) return Found{};
   if (!way) return tl::unexpected<Error>(way.error());
-  const double off = -motion::intrusion(border, way->points.front(), stop);
+  const double off = -motion::intrusion(border, way->points.front());
   return off < kPierceOff * lead.radius ? Found{} : Found{*std::move(way)};
 }
 
@@ -126,10 +138,9 @@ TorchCut part_end(const part::Part& part, bool finish) {
 }
 
 /// Returns the pass of an end's land in the part's frame.
-Result<TorchCut> part_land(const part::PartSpec& spec, const part::Part& part, bool finish,
-                           const std::stop_token& stop) {
+Result<TorchCut> part_land(const part::PartSpec& spec, const part::Part& part, bool finish) {
   const auto& end = finish ? part.finish : part.start;
-  TRY(auto land, bevel::land_pass(end.spec, end.own, stop));
+  TRY(auto land, bevel::land_pass(end.spec, end.own));
   const auto placed =
       part::shifted(finish ? part::seen_from_start(land, *spec.target.length) : std::move(land),
                     -part::lowest(part.start.own));
@@ -218,17 +229,16 @@ std::vector<TorchCut> torch_cuts(const part::PartSpec& spec, const part::Part& p
   return out;
 }
 
-Result<std::vector<TorchCut>> torch_passes(const bevel::TableSpec& spec, const bevel::Table& table,
-                                           const std::stop_token& stop) {
+Result<std::vector<TorchCut>> torch_passes(const bevel::TableSpec& spec,
+                                           const bevel::Table& table) {
   std::vector out{torch_cut(spec, table)};
   if (out.back().land == 0.0) return out;
-  TRY(const auto land, bevel::land_pass(spec, table, stop));
+  TRY(const auto land, bevel::land_pass(spec, table));
   put_before_last(end_cut(spec, land, motion::Scrap::minus_z), out);
   return out;
 }
 
-Result<std::vector<TorchCut>> torch_passes(const part::PartSpec& spec, const part::Part& part,
-                                           const std::stop_token& stop) {
+Result<std::vector<TorchCut>> torch_passes(const part::PartSpec& spec, const part::Part& part) {
   auto cuts = torch_cuts(spec, part);
   if (!cuts.empty() && cuts.back().land > 0.0)
     return fail({.code = ErrorCode::unsupported_combination,
@@ -240,14 +250,18 @@ Result<std::vector<TorchCut>> torch_passes(const part::PartSpec& spec, const par
     const bool has_land = cut.land > 0.0, finish = cut.name == joint::end_name(true);
     out.push_back(std::move(cut));
     if (!has_land) continue;
-    TRY(auto land, part_land(spec, part, finish, stop));
+    TRY(auto land, part_land(spec, part, finish));
     put_before_last(std::move(land), out);
   }
   return out;
 }
 
-Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach,
-                           const std::stop_token& stop) {
+double from_edge(const motion::CutWithLead& way, double outer_radius) {
+  const auto &pierce = way.points.front(), &first = way.points[way.cut_first];
+  return elementary::hypot(outer_radius * (first.phi - pierce.phi), first.z - pierce.z);
+}
+
+Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach) {
   const bool as_given = approach.start.at == motion::Start::At::first_point;
   if (!approach.lead && as_given) return TorchWay{once_round(cut.path), 0.0};
   const auto path = motion::without_repeats(cut.path);
@@ -255,32 +269,40 @@ Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach,
   TRY(const auto from,
       motion::directed(std::move(whole), motion::Direction::as_given, approach.start));
   if (!approach.lead) return TorchWay{{from.points, 0, from.points.size() - 1}, 0.0};
-  TRY(const auto border, torch_border(cut, stop));
-  auto way = way_with_lead(border, from, *approach.lead, stop);
-  if (way || !cut.centre || way.error().code() != ErrorCode::lead_blocked) return way;
-  TRY(auto from_centre, centre_lead(cut, approach.lead->overcut));
-  for (std::size_t i = 0; i < from_centre.cut_first; ++i)
-    if (motion::intrusion(border, from_centre.points[i], stop) >
-        motion::lead_touch(border, kTouching))
-      return way;
-  return TorchWay{std::move(from_centre), 0.0};
+  TRY(const auto border, torch_border(cut));
+  auto way = way_with_lead(border, from, *approach.lead);
+  const bool as_asked =
+      way ? way->radius >= approach.lead->radius : way.error().code() != ErrorCode::lead_blocked;
+  if (as_asked || !cut.centre) return way;
+  // A pierce in the middle is further from the edge than one before a shorter arc.
+  for (const auto how : {CentreWay::half_circle, CentreWay::straight}) {
+    TRY(auto from_centre, centre_lead(cut, approach.lead->overcut, how));
+    const double touch = motion::lead_touch(border, kTouching);
+    bool clear = true;
+    for (std::size_t i = 0; i < from_centre.cut_first && clear; ++i)
+      clear = motion::intrusion(border, from_centre.points[i]) <= touch;
+    if (clear && (!way || from_edge(from_centre, cut.path.outer_radius) >= way->radius))
+      return TorchWay{std::move(from_centre), 0.0};
+  }
+  return way;
 }
 
-Result<motion::PartBorder> torch_border(const TorchCut& cut, const std::stop_token& stop) {
+Result<motion::PartBorder> torch_border(const TorchCut& cut) {
   if (cut.counted_inward)
     return fail({.code = ErrorCode::unsupported_combination,
                  .member = "lead",
                  .hint = "B is counted inward, as published, for comparison"});
-  return motion::part_border(motion::without_repeats(cut.path), kSigma, stop);
+  return motion::part_border(motion::without_repeats(cut.path), kSigma);
 }
 
 Result<TorchWay> way_with_lead(const motion::PartBorder& border, const motion::Track& from,
-                               motion::Lead lead, const std::stop_token& stop) {
+                               motion::Lead lead) {
   while (true) {
-    TRY(auto way, lead_and_pierce(border, from, lead, stop));
+    TRY(auto way, lead_and_pierce(border, from, lead));
     if (way) return TorchWay{*std::move(way), lead.radius};
-    lead.radius /= 2.0;
-    if (lead.radius < kShortestLead)
+    const bool shortest = lead.radius <= kShortestLead;
+    lead.radius = std::max(0.5 * lead.radius, kShortestLead);
+    if (shortest)
       return fail({.code = ErrorCode::lead_blocked,
                    .member = "lead",
                    .got = lead.radius,

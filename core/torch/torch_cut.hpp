@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,11 +55,9 @@ struct TorchCut {
 /// Errors  those of bevel::land_pass; unsupported_combination (root_face): the land is on the last
 ///         cut of a part.
 [[nodiscard]] Result<std::vector<TorchCut>> torch_passes(const bevel::TableSpec& spec,
-                                                         const bevel::Table& table,
-                                                         const std::stop_token& stop = {});
+                                                         const bevel::Table& table);
 [[nodiscard]] Result<std::vector<TorchCut>> torch_passes(const part::PartSpec& spec,
-                                                         const part::Part& part,
-                                                         const std::stop_token& stop = {});
+                                                         const part::Part& part);
 
 /// The start of a cut and the lead of the torch to it.
 struct Approach {
@@ -82,27 +79,27 @@ struct TorchWay {
   double radius = 0.0;  // of the leads' arcs; less than requested if that would enter the part
 };
 
+/// Returns the distance of the pierce to the place where the cut begins, on the outside, mm.
+[[nodiscard]] double from_edge(const motion::CutWithLead& way, double outer_radius);
+
 /// Computes the cut from its start on, with leads that are clear of the finished part, and a pierce
 /// clear by `kPierceOff`. If the scrap has no room, their radius is halved, down to
-/// `kShortestLead`.
+/// `kShortestLead`; a cut-out whose middle is further from its edge is pierced there instead.
 ///
 /// Errors  lead_blocked, out_of_range (no point at the requested phi), unsupported_combination (B
 ///         counted inward has no leads), cancelled; those of motion::track.
 /// Source  docs/theory/pulse-schedules.md, section 2.6.
-[[nodiscard]] Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach,
-                                         const std::stop_token& stop = {});
+[[nodiscard]] Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach);
 
 /// Computes the part's border that a cut makes.
 ///
 /// Errors  unsupported_combination (B counted inward); those of motion::part_border.
-[[nodiscard]] Result<motion::PartBorder> torch_border(const TorchCut& cut,
-                                                      const std::stop_token& stop = {});
+[[nodiscard]] Result<motion::PartBorder> torch_border(const TorchCut& cut);
 
 /// Adds these leads to a cut, or to a part of it, that already has its direction and start.
 ///
 /// Errors  lead_blocked, cancelled.
 [[nodiscard]] Result<TorchWay> way_with_lead(const motion::PartBorder& border,
-                                             const motion::Track& from, motion::Lead lead,
-                                             const std::stop_token& stop = {});
+                                             const motion::Track& from, motion::Lead lead);
 
 }  // namespace tubecut::torch

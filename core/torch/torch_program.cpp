@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/try.hpp"
+#include "core/torch/centre_lead.hpp"
 #include "core/torch/stretches.hpp"
 
 namespace tubecut::torch {
@@ -18,17 +19,18 @@ Approach approach(const TorchCut& cut, const Setup& setup) {
   return out;
 }
 
-Result<std::vector<ProgramCut>> program_cut(const TorchCut& cut, const Setup& setup, bool last,
-                                            const std::vector<double>& more,
-                                            const std::stop_token& stop) {
+Result<std::vector<ProgramCut>> program_cut(const TorchCut& as_asked, const Setup& setup, bool last,
+                                            const std::vector<double>& more) {
+  const bool window = setup.lead && as_asked.centre;
+  const auto cut = window ? with_middles(as_asked) : as_asked;
   const auto from = approach(cut, setup);
   std::vector<ProgramCut> out;
   if (!setup.tabs || !holds(*setup.tabs, cut, last)) {
-    TRY(auto way, torch_way(cut, from, stop));
+    TRY(auto way, torch_way(cut, from));
     out.push_back({.cut = cut, .way = std::move(way), .start = from.start.at});
     return out;
   }
-  TRY(auto ways, ways_between_tabs(cut, from, *setup.tabs, more, stop));
+  TRY(auto ways, ways_between_tabs(cut, from, *setup.tabs, more));
   for (auto& way : ways) {
     const auto i = out.size();
     out.push_back({.cut = cut,

@@ -19,7 +19,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/torch/tabs.hpp"
@@ -69,8 +68,7 @@ struct ProgramCut {
 ///         passes).
 [[nodiscard]] Result<std::vector<ProgramCut>> program_cut(const TorchCut& cut, const Setup& setup,
                                                           bool last,
-                                                          const std::vector<double>& more = {},
-                                                          const std::stop_token& stop = {});
+                                                          const std::vector<double>& more = {});
 
 /// Returns the whole revolutions of the tube by which each cut's phi continues from the end of the
 /// cut before, by the shortest rotation: of the cuts in their order.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/stop.hpp"
 #include "server/http/session.hpp"
 
 namespace tubecut::server {
@@ -113,39 +114,25 @@ JobMemory::Grant Port::grow(Job& job, std::size_t bytes) const {
 /// belong to the job.
 void Port::take_turns(Job& job, std::size_t count, const Turn& turn) {
   JobMemory::Taken all;
-  const auto give_over = [&] {
-    JobMemory::take_over(all);
-    job.held.helpers -= all.given;
-  };
   const auto within = [&](const Helpers::Stint& stint) {
-    ++job.helped_by;
-    const auto clock = CpuClock::of_this_thread();
-    CpuLimit limit(job.all_cpu, job.budget.cpu, clock);
-    {
-      const JobMemory own(0, [&](std::size_t bytes) {
-        const auto grant = grow(job, bytes);
-        if (grant == JobMemory::Grant::given) job.held.helpers += bytes;
-        return grant;
-      });
-      stint();
-      const auto taken = own.taken();
-      const auto unused = taken.given - std::min(taken.given, taken.live);
-      const std::lock_guard lock(job.growing);
-      job.memory.resize(job.memory.bytes() - unused);
-      job.held.helpers -= unused;
-      all.given += taken.given - unused;
-      all.live += taken.live;
-    }
-    job.helped_ns += limit.end().count();
-    --job.helped_by;
+    const StopScope scope(job.stop.get_token());
+    const HelpersCpu::Share counted(job.helped);
+    const JobMemory own(0, [&](std::size_t bytes) { return grow(job, bytes); });
+    stint();
+    const auto taken = own.taken();
+    const auto unused = taken.given - std::min(taken.given, taken.live);
+    const std::lock_guard lock(job.growing);
+    job.memory.resize(job.memory.bytes() - unused);
+    all.given += taken.given - unused;
+    all.live += taken.live;
   };
   try {
     slots.take_turns(count, turn, within);
   } catch (...) {
-    give_over();
+    JobMemory::take_over(all);
     throw;
   }
-  give_over();
+  JobMemory::take_over(all);
 }
 
 /// In a slot's thread.
@@ -158,8 +145,7 @@ void Port::work(Job& job) {
   const auto body = std::min(job.request.body.size(), job.memory.bytes());
   const auto given = kThreadBytes + job.memory.bytes() - body;
   {
-    const JobMemory taken(
-        given, [&](std::size_t bytes) { return grow(job, bytes); }, &job.held.own);
+    const JobMemory taken(given, [&](std::size_t bytes) { return grow(job, bytes); });
     answer(job);
   }
   give_back(job.request.body);   // a client that is slow to take its answer holds only the answer
@@ -247,14 +233,14 @@ void Port::set_budget(Job& job) const {
 /// A thread cannot use more CPU than elapsed time, so no check is needed until `due`.
 void Port::hold_to_budget(Job& job) const {
   const auto now = Clock::now();
-  const auto left = job.budget.cpu - slots.cpu(job) - job.all_cpu.to_give_back();
+  const auto left = job.budget.cpu - slots.cpu(job);
   const bool used = job.budget.cpu > 0ms && left <= 0ns;
   if (used || now >= job.end) {
     job.stop.request_stop();
     job.due = Clock::time_point::max();
   } else {
     const auto look =
-        std::chrono::ceil<std::chrono::nanoseconds>(kLookShare * left / (1 + job.helped_by));
+        std::chrono::ceil<std::chrono::nanoseconds>(kLookShare * left / (1 + job.helped.threads()));
     job.due = std::min(job.end, job.budget.cpu > 0ms ? now + std::max(look, kLeastLook)
                                                      : Clock::time_point::max());
   }

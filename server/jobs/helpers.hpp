@@ -20,7 +20,7 @@ namespace tubecut::server {
 class Helpers {
  public:
   /// Of one job at a time.
-  static constexpr std::size_t kMost = CpuBudget::kThreads - 1;
+  static constexpr std::size_t kMost = 15;
 
   /// The work of a thread for one job. `within` calls it once, in the job's context.
   using Stint = std::function<void()>;

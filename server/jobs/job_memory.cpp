@@ -12,8 +12,7 @@ thread_local JobMemory* t_job = nullptr;  // NOLINT: operator new has no other w
 
 }  // namespace
 
-JobMemory::JobMemory(std::size_t given, Grow grow, std::atomic<std::size_t>* live)
-    : given_(given), live_(live != nullptr ? live : &own_), grow_(std::move(grow)) {
+JobMemory::JobMemory(std::size_t given, Grow grow) : given_(given), grow_(std::move(grow)) {
   t_job = this;
 }
 
@@ -26,19 +25,18 @@ void JobMemory::take(std::size_t bytes) {
 }
 
 void JobMemory::give(std::size_t bytes) noexcept {
-  if (t_job != nullptr && !t_job->asking_)
-    t_job->set_live(t_job->live() - std::min(t_job->live(), bytes));
+  if (t_job != nullptr && !t_job->asking_) t_job->live_ -= std::min(t_job->live_, bytes);
 }
 
 void JobMemory::take_over(const Taken& taken) {
   if (t_job == nullptr) return;
   t_job->given_ += taken.given;
-  t_job->set_live(t_job->live() + taken.live);
-  t_job->peak_ = std::max(t_job->peak_, t_job->live());
+  t_job->live_ += taken.live;
+  t_job->peak_ = std::max(t_job->peak_, t_job->live_);
 }
 
 void JobMemory::ask(std::size_t bytes) {
-  const std::size_t held = live() + bytes;
+  const std::size_t held = live_ + bytes;
   if (held > given_) {
     const std::size_t least = held - given_, most = std::max(least, kStep);
     asking_ = true;
@@ -49,7 +47,7 @@ void JobMemory::ask(std::size_t bytes) {
     if (grant != Grant::given) throw NoRoom(grant == Grant::in_use);
     given_ += more;
   }
-  set_live(held);
+  live_ = held;
   peak_ = std::max(peak_, held);
 }
 

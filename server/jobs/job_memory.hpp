@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <new>
@@ -23,9 +22,8 @@ class JobMemory {
   /// Grants this number of bytes more, or returns the reason for the refusal.
   using Grow = std::function<Grant(std::size_t bytes)>;
 
-  /// `given`: initial bytes. One object at a time per thread. `live`: counter in which other
-  /// threads read the bytes held; nullptr: not used.
-  JobMemory(std::size_t given, Grow grow, std::atomic<std::size_t>* live = nullptr);
+  /// `given`: initial bytes. One object at a time per thread.
+  JobMemory(std::size_t given, Grow grow);
   ~JobMemory();
   JobMemory(const JobMemory&) = delete;
   JobMemory& operator=(const JobMemory&) = delete;
@@ -41,7 +39,7 @@ class JobMemory {
   struct Taken {
     std::size_t given = 0, live = 0;
   };
-  [[nodiscard]] Taken taken() const { return {given_, live()}; }
+  [[nodiscard]] Taken taken() const { return {given_, live_}; }
   static void take_over(const Taken& taken);
 
   /// For operator new and delete: the thread's job takes or frees a block. Freeing other threads'
@@ -51,13 +49,9 @@ class JobMemory {
 
  private:
   void ask(std::size_t bytes);
-  /// One thread writes: no other can come between reading and writing.
-  void set_live(std::size_t bytes) noexcept { live_->store(bytes, std::memory_order_relaxed); }
-  [[nodiscard]] std::size_t live() const noexcept { return live_->load(std::memory_order_relaxed); }
 
   std::size_t given_;
-  std::atomic<std::size_t> own_ = 0;
-  std::atomic<std::size_t>* live_;
+  std::size_t live_ = 0;
   std::size_t peak_ = 0;
   Grow grow_;
   bool asking_ = false;  // memory taken while requesting does not count for the job

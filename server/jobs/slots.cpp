@@ -22,9 +22,7 @@ void step_back(int by) {
 
 }  // namespace
 
-std::chrono::nanoseconds used(const Job& job) {
-  return job.cpu.used() + std::chrono::nanoseconds(job.helped_ns);
-}
+std::chrono::nanoseconds used(const Job& job) { return job.cpu.used() + job.helped.used(); }
 
 Slots::Slots(int count, std::size_t queue, Step work, Step done)
     : work_(std::move(work)),
@@ -149,9 +147,8 @@ void Slots::run(bool in_slot) {
     if (done) done_(std::exchange(done, nullptr));
     std::chrono::nanoseconds own{0};
     if (job) {
-      CpuLimit limit(job->all_cpu, job->budget.cpu, job->cpu);
       work_(job);
-      own = limit.end();
+      own = job->cpu.used();
     }
     lock.lock();
     if (looks_again) --back_;

@@ -38,13 +38,10 @@ struct Job {
   std::chrono::steady_clock::time_point due =
       std::chrono::steady_clock::time_point::max();  // when the port has to look at it
   Claim claim = {};
-  bool is_short = false;                    // its class
-  bool begun = false;                       // of the slots' mutex
-  CpuClock cpu = {};                        // of the slots' mutex; its thread's while it runs
-  HeldBytes held = {};                      // while it runs
-  CpuBudget all_cpu{stop, &held};           // of all threads that work at it
-  std::atomic<std::int64_t> helped_ns = 0;  // CPU that others than its thread have had for it
-  std::atomic<int> helped_by = 0;
+  bool is_short = false;   // its class
+  bool begun = false;      // of the slots' mutex
+  CpuClock cpu = {};       // of the slots' mutex; its thread's while it runs
+  HelpersCpu helped = {};  // by threads other than its own
   bool displaced = false;  // known to the port: it lost its place in the queue
   Printed answer = {};
   std::optional<Response> begins = {};  // instead: an answer that its lines' answers follow

@@ -72,7 +72,7 @@ TEST(Columns, AreThoseOfCborAndCsvToo) {
   const auto cbor = post(kPath, api::dump(request), "format=cbor");
   ASSERT_FALSE(cbor.outcome.error);
   EXPECT_EQ(hash(cbor), text(json.body, "job/result_sha256"));
-  api::Writer as_cbor(0, {}, api::Encoding::cbor);
+  api::Writer as_cbor(0, api::Encoding::cbor);
   as_cbor.json(json.body);
   EXPECT_EQ(cbor.outcome.body, as_cbor.take());
 

@@ -184,14 +184,14 @@ TEST(Cutouts, AllOfThemAreInEveryFile) {
   EXPECT_GE(count(text_of("format=gcode&speed_mm_min=1200&lead_mm=3"), "cut-out p"), 2u);
 }
 
-/// If only cut-outs can make a requested opening, because there are more than 64 or because its
+/// If only cut-outs can make a requested opening, because there are more than 256 or because its
 /// branch is no tube, the refusal names them.
 TEST(Cutouts, RefusedHolesNameThem) {
   const auto hole = json(R"({"branch": {"outer_diameter_mm": 6, "wall_mm": 1,
                                          "axis": {"point_mm": [0, 0, 100], "direction": [1, 0, 0]}},
                              "groove": {"rule": "square"}, "tilt": "none"})");
   auto body = part_with(Json{Json::Array{}});
-  const auto many = post(kParts, with(body, "holes", Json{Json::Array(65, hole)}));
+  const auto many = post(kParts, with(body, "holes", Json{Json::Array(257, hole)}));
   ASSERT_TRUE(many.outcome.error);
   EXPECT_EQ(text(many.body, "errors/0/pointer"), "/holes");
   EXPECT_NE(text(many.body, "errors/0/hint").find("cutouts"), std::string::npos);
@@ -201,6 +201,28 @@ TEST(Cutouts, RefusedHolesNameThem) {
   EXPECT_EQ(text(other.body, "errors/0/pointer"), "/holes/0/branch/kind");
   EXPECT_EQ(text(other.body, "errors/0/code"), "unsupported_combination");
   EXPECT_NE(text(other.body, "errors/0/hint").find("cutouts"), std::string::npos);
+}
+
+/// A shape wider than the bore is refused as that, with the bore; a pattern that leaves the part at
+/// the finish, with the sign of its pitch.
+TEST(Cutouts, RefusalsNameTheCause) {
+  const auto wide = post(kParts, part_with(list(R"({"id": "w", "at": {"z_mm": 150, "phi_deg": 0},
+                             "shape": {"kind": "circle", "diameter_mm": 500}})")));
+  ASSERT_TRUE(wide.outcome.error);
+  EXPECT_EQ(text(wide.body, "errors/0/pointer"), "/cutouts/0/shape");
+  EXPECT_EQ(text(wide.body, "errors/0/code"), "open_profile");
+  const auto past =
+      post(kParts, part_with(list(R"({"id": "b", "at": {"z_mm": 40, "phi_deg": 0, "from": "finish"},
+                             "shape": {"kind": "circle", "diameter_mm": 10},
+                             "pattern": {"kind": "linear", "count": 3, "pitch_mm": 100}})")));
+  ASSERT_TRUE(past.outcome.error);
+  EXPECT_EQ(text(past.body, "errors/0/pointer"), "/cutouts/0/pattern");
+  EXPECT_NE(text(past.body, "errors/0/hint").find("negative"), std::string::npos);
+  const auto none = post(kParts, part_with(list(R"({"id": "b", "at": {"z_mm": 40, "phi_deg": 0},
+                             "shape": {"kind": "circle", "diameter_mm": 10},
+                             "pattern": {"kind": "linear", "count": 3}})")));
+  ASSERT_TRUE(none.outcome.error);
+  EXPECT_EQ(text(none.body, "errors/0/pointer"), "/cutouts/0/pattern/pitch_mm");
 }
 
 TEST(Cutouts, AThousandAndMoreAreOneShapeMoved) {

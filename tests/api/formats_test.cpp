@@ -17,6 +17,7 @@
 #include "api/wire/words.hpp"
 #include "core/base/angle.hpp"
 #include "tests/support/call.hpp"
+#include "tests/support/cancelled.hpp"
 
 namespace tubecut::testing {
 namespace {
@@ -173,37 +174,34 @@ TEST(Formats, LabelsAreSpreadAndKeepTheirOrder) {
 TEST(Formats, APdfSpellsLettersThatItsFontsLack) {
   api::Canvas sheet(50.0, 20.0);
   sheet.text({1.0, 1.0}, "(30\u00b0) \u0159");
-  const auto pdf = api::print_pdf({sheet}, "a", {});
+  const auto pdf = api::print_pdf({sheet}, "a");
   EXPECT_NE(pdf.find("(\\05030\\260\\051 r)"), std::string::npos);
   api::Canvas other(50.0, 20.0);
   other.text({1.0, 1.0}, "\u7ba1");
-  EXPECT_THROW((void)api::print_pdf({other}, "a", {}), api::Unspellable);
+  EXPECT_THROW((void)api::print_pdf({other}, "a"), api::Unspellable);
 }
 
 /// Between two looks at the budget lies one line of a drawing, not its pages: a template of 20 000
 /// points on A4 took 0.2 s to lay and print.
 TEST(Formats, DrawingsEndAtTheirLimits) {
-  std::stop_source over;
-  over.request_stop();
-  const auto stop = over.get_token();
   api::Canvas sheet(500.0, 500.0), other(500.0, 500.0);
   sheet.line({0.0, 0.0}, {400.0, 400.0});
   const api::DrawingBox window{{0.0, 0.0}, {500.0, 500.0}};
-  EXPECT_THROW(other.place(sheet, {0.0, 0.0}, {}, window, stop), api::Stopped);
   const api::TemplateDrawing drawing{sheet, sheet};
   const api::TemplateLabels labels({}, {}, {}, "");
-  EXPECT_THROW((void)api::tiles(drawing, labels, api::Paper::a4, {}, stop), api::Stopped);
-  EXPECT_THROW((void)api::print_svg({sheet}, "a", stop), api::Stopped);
-  EXPECT_THROW((void)api::print_pdf({sheet}, "a", stop), api::Stopped);
-  EXPECT_GT(api::tiles(drawing, labels, api::Paper::a4, {}, {}).size(), 1U);
+  EXPECT_GT(api::tiles(drawing, labels, api::Paper::a4, {}).size(), 1U);
+  const CancelledScope cancelled;
+  EXPECT_THROW((void)api::tiles(drawing, labels, api::Paper::a4, {}), api::Stopped);
+  EXPECT_THROW(other.place(sheet, {0.0, 0.0}, {}, window), api::Stopped);
+  EXPECT_THROW((void)api::print_svg({sheet}, "a"), api::Stopped);
+  EXPECT_THROW((void)api::print_pdf({sheet}, "a"), api::Stopped);
 }
 
 /// A cancelled job draws no more: a work order of 20 000 points took 42 ms to lay out.
 TEST(Formats, ACancelledJobDrawsNothing) {
-  std::stop_source over;
-  api::Canvas sheet(500.0, 500.0, over.get_token());
+  api::Canvas sheet(500.0, 500.0);
   sheet.line({0.0, 0.0}, {400.0, 400.0});
-  over.request_stop();
+  const CancelledScope cancelled;
   EXPECT_THROW(sheet.line({0.0, 0.0}, {400.0, 400.0}), api::Stopped);
   EXPECT_THROW(sheet.polyline({{0.0, 0.0}, {400.0, 400.0}}), api::Stopped);
   EXPECT_THROW(sheet.text({0.0, 0.0}, "a"), api::Stopped);
@@ -211,82 +209,30 @@ TEST(Formats, ACancelledJobDrawsNothing) {
   EXPECT_EQ(sheet.drawn().size(), 1U);
 }
 
-/// An answer that has outgrown its buffer moves in parts, with looks between: 30 MB in one took
-/// 41 ms.
-TEST(Formats, ATextEndsWhileItMoves) {
-  std::stop_source over;
-  const std::string whole(5u << 20, 'x');
-  auto text = whole;
-  text.shrink_to_fit();
-  api::make_room(text, 10, over.get_token());
-  EXPECT_EQ(text, whole);
-  const auto room = text.capacity();
-  EXPECT_GE(room, whole.size() + 10);
-  over.request_stop();
-  api::make_room(text, 10, over.get_token());  // there already
-  EXPECT_THROW(api::make_room(text, room, over.get_token()), api::Stopped);
-  EXPECT_EQ(text, whole);
-}
-
 /// Columns of a million numbers are copied into a CSV: 37 ms.
 TEST(Formats, ACsvCanBeCancelledBetweenColumns) {
-  std::stop_source over;
-  api::Caption caption{};
-  caption.stop = over.get_token();
+  const api::Caption caption{};
   const auto columns = api::Columns().column("a", {1.0, 2.0});
   api::Csv csv(caption);
   csv.table(columns).stacked("b", {{"c", columns}});
-  over.request_stop();
+  const CancelledScope cancelled;
   EXPECT_THROW(csv.table(columns), api::Stopped);
   EXPECT_THROW(csv.stacked("b", {{"c", columns}}), api::Stopped);
 }
 
-/// So does a document of CBOR, whatever it grows by: a million counts moved for a name, 66 ms.
-TEST(Formats, CborEndsWhileItMoves) {
-  const std::string name(200, 'x');
-  const auto grow = [&](auto write) {
-    std::stop_source over;
-    api::CborWriter writer(over.get_token());
-    writer.open(true);
-    over.request_stop();
-    for (int i = 0; i < 10000; ++i) write(writer);
-  };
-  EXPECT_THROW(grow([&](api::CborWriter& w) { w.key(name); }), api::Stopped);
-  EXPECT_THROW(grow([&](api::CborWriter& w) { w.text(name); }), api::Stopped);
-  EXPECT_THROW(grow([](api::CborWriter& w) { w.number(0.1); }), api::Stopped);
-  EXPECT_THROW(grow([](api::CborWriter& w) { w.boolean(true); }), api::Stopped);
-  EXPECT_THROW(grow([](api::CborWriter& w) { w.open(false), w.close(); }), api::Stopped);
-}
-
-/// A DXF's entities are joined behind its head when all are there: 19 MB of them in 82 ms.
-TEST(Formats, ADxfEndsWhileItIsJoined) {
-  std::stop_source over;
-  const api::DxfWriter::Layer layer{"A", 7};
-  api::DxfWriter writer({layer}, {}, over.get_token());
-  std::vector<Eigen::Vector3d> points;
-  for (int i = 0; i < 20000; ++i) points.emplace_back(i, 0.0, 0.0);
-  writer.polyline(layer, points, false);
-  EXPECT_GT(writer.print().size(), 1u << 20);
-  over.request_stop();
-  EXPECT_THROW((void)writer.print(), api::Stopped);
-}
-
-/// A program of a frame's longest leads, 5 MB, was copied four times behind its last move: 42 ms.
-TEST(Formats, AProgramEndsWhileItsBlocksAreNumbered) {
-  std::stop_source over;
+/// A program of a frame's longest leads has 5 MB.
+TEST(Formats, AProgramsBlocksAreNumbered) {
   std::string program;
   for (int i = 0; i < 20000; ++i) program += "G1 X" + std::to_string(i) + "\n";
   api::Post post;
   post.comment_begin = "(";
   const auto* const bytes = program.data();
-  program = post.numbered(std::move(program), over.get_token());
+  program = post.numbered(std::move(program));
   EXPECT_EQ(program.data(), bytes) << "without numbers it is the same text, not a copy";
   post.block_numbers = 10;
-  const auto numbered = post.numbered(program, over.get_token());
+  const auto numbered = post.numbered(program);
   EXPECT_TRUE(numbered.starts_with("N10 G1 X0\nN20 G1 X1\n"));
   EXPECT_TRUE(numbered.ends_with("\nN200000 G1 X19999\n"));
-  over.request_stop();
-  EXPECT_THROW((void)post.numbered(program, over.get_token()), api::Stopped);
 }
 
 TEST(Formats, DrawingScalesAreTheUsualOnesAndFit) {

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/joint/intersection.hpp"
 #include "tests/support/call.hpp"
+#include "tests/support/cancelled.hpp"
 
 namespace tubecut::testing {
 namespace {
@@ -478,7 +479,7 @@ TEST(Envelope, JobIdIsTheCallersOrOfTheInput) {
                  .body = body,
                  .job_id = "order 7",
                  .request_id = "test"};
-  const api::Context context{.stop = {}, .clock = {}, .status = [](ErrorKind) { return 400; }};
+  const api::Context context{.clock = {}, .status = [](ErrorKind) { return 400; }};
   const auto named = *api::parse(api::dispatch(call, context).body);
   EXPECT_EQ(text(named, "job/id"), "order 7");
   call.job_id.clear();
@@ -529,6 +530,26 @@ TEST(Problems, ALongUnknownNameIsCutAndNamedOnce) {
   EXPECT_LT(query.outcome.body.size(), 3000U);
 }
 
+/// Its refusal is written although the work of its thread is cancelled, at any size of the body.
+TEST(Envelope, ACancelledJobIsRefusedByItsCode) {
+  const api::Context context{.clock = {}, .status = [](ErrorKind) { return 504; }};
+  for (const std::size_t size : {2U, 5'000'000U}) {
+    const std::string body = "{" + std::string(size - 2, ' ') + "}";
+    const api::Call call{.method = "POST",
+                         .path = "/v1/bevel-tables",
+                         .query = {},
+                         .accept = {},
+                         .content_type = "application/json",
+                         .body = body,
+                         .job_id = {},
+                         .request_id = "r"};
+    const CancelledScope cancelled;
+    const auto outcome = api::dispatch(call, context);
+    EXPECT_EQ(outcome.error, ErrorKind::timeout) << size;
+    EXPECT_NE(outcome.body.find("over_budget"), std::string::npos) << size;
+  }
+}
+
 TEST(Envelope, EveryCodeHasAnAction) {
   for (const auto& error : all_errors()) {
     EXPECT_FALSE(error.meaning.empty()) << error.code;
@@ -538,7 +559,7 @@ TEST(Envelope, EveryCodeHasAnAction) {
     EXPECT_FALSE(warning.meaning.empty()) << warning.code;
     EXPECT_TRUE(warning.action.ends_with('.')) << warning.code;
   }
-  const api::Context context{.stop = {}, .clock = {}, .status = [](ErrorKind) { return 503; }};
+  const api::Context context{.clock = {}, .status = [](ErrorKind) { return 503; }};
   const auto busy = *api::parse(api::problem(ErrorCode::overloaded, "", "r", context).body);
   EXPECT_EQ(at(busy, "retryable"), Json{true});
 }

@@ -220,9 +220,12 @@ export function* drawn(arbitrary, seed, count) {
   }
 }
 
+// Returns the number of requests that a suite draws: `few`, because every change waits for them, or `all` in `./dev soak requests`.
+export const drawings = (few, all) => (process.env.TUBECUT_DRAWINGS === 'all' ? all : few);
+
 // Returns the number of requests that a suite sends to an endpoint. If the endpoint has no generator of its own, the number is smaller, because its
 // requests are near its examples, and many of those are expensive. With TUBECUT_RUNS=100000 every endpoint gets the whole number, in ten minutes.
-const FEW_RUNS = Number(process.env.TUBECUT_RUNS ?? 60);
+const FEW_RUNS = Number(process.env.TUBECUT_RUNS ?? drawings(20, 60));
 export const hasGenerator = (endpoint) => own[endpoint.id] !== undefined;
 export const runsOf = (endpoint, whole) => (hasGenerator(endpoint) ? whole : Math.min(whole, FEW_RUNS));
 

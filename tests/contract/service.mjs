@@ -8,10 +8,13 @@ const CONNECTIONS = 4;
 const SECONDS = 60;  // to an answer: hung, not slow
 const PATIENCE = 20;  // times
 
+// A service refuses to start if a TUBECUT_ variable names none of its options, as those of the tests.
+const withoutOptions = (all) => Object.fromEntries(Object.entries(all).filter(([name]) => !name.startsWith('TUBECUT_')));
+
 export class Service {
   static async start(binary, ...options) {
     const child = spawn(binary, ['--host', '127.0.0.1', '--port', '0', '--admin-port', '0', '--budget-s', '30', ...options],  // the contract of answers, not of their speed
-      {stdio: ['ignore', 'pipe', 'inherit']});
+      {stdio: ['ignore', 'pipe', 'inherit'], env: withoutOptions(process.env)});
     const lines = createInterface({input: child.stdout});
     const first = await new Promise((resolve, reject) => {
       lines.once('line', resolve);

@@ -108,6 +108,8 @@ class Bundles(FormatTest):
                 header = [line for line in content["nc1"].decode().splitlines() if not line.startswith("**")]
                 self.assertEqual(header[6].strip(), str(pieces))  # behind ST, order, drawing, phase, piece and grade
                 self.assertIn(f"quantity: {pieces}", content["dxf"].decode())
+            said = [line for line in files["cut-list.csv"].decode().splitlines() if line.startswith("# quantity: ")]
+            self.assertEqual(said, [f"# quantity: {frames} frames (count is of one frame)"] if frames else [])
 
     def test_members_beyond_three_lines_are_counted(self):
         ids = [f"brace number {i} of the lower row" for i in range(60)]
@@ -173,6 +175,19 @@ class Bundles(FormatTest):
             if part["verdict"] == "reject":
                 self.assertEqual([(out["format"], out["code"]) for out in part["left_out"]], [("gcode", "rejected")])
         self.assertTrue(any(part["left_out"] for part in self.manifest(rejected)["parts"]))
+
+    def test_what_the_frame_warns_of_is_acknowledged_for_every_lit_program(self):
+        bars = [{"id": one, "size": "SHS 40x40x3 EN 10219", "up": [0, 0, 1], "start_mm": start, "end_mm": end} for one, start, end in
+                (("long", [0, 0, 0], [1000, 0, 0]), ("across", [500, -300, 15], [500, 300, 15]))]
+        body = {"preset": "tube_laser", "kerf_mm": 0.2, "members": bars, "connect": {"within_mm": 1}}
+        self.assertEqual({w["code"] for w in self.service.answer("frames", body)["warnings"]}, {"members_overlap"})
+        lit = "&files=gcode&speed_mm_min=600&torch=on&lead_mm=2&pivot_length_mm=0&pierce_height_mm=3&cut_height_mm=1&pierce_delay_s=0.2"
+        for part in self.manifest(self.archive(body, lit))["parts"]:
+            self.assertEqual([(out["format"], out["code"]) for out in part["left_out"]], [("gcode", "not_acknowledged")])
+        for part in self.manifest(self.archive(body, lit + "&acknowledge=members_overlap"))["parts"]:
+            self.assertEqual(part["left_out"], [])
+        status, _, content = self.service.ask("frames", body, "format=zip" + lit + "&acknowledge=free_cut")
+        self.assertEqual((status, code_of(content)), (422, "?acknowledge"))
 
     def test_tabs_of_holes_are_of_the_parts_that_have_any(self):
         body = examples("frames")["gate-with-rails-through-uprights"]

@@ -37,6 +37,9 @@ def label_of(endpoint, result, path):
         if at and at[1] == "cutouts":
             group = result["cutouts"][int(at[2])]
             return "cut", cutout_name(group, group["instances"][0])
+        if at and at[1] == "marks":
+            text, stroke = result["marks"][int(at[2])]["lettering"]["id"], int(re.search(r"strokes\[(\d+)\]", path)[1])
+            return "cut", f"mark of text {text}, stroke {stroke + 1}"
         return "cut", f"hole {at[2]}" if at else path.split(".")[1]
     return None
 

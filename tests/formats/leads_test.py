@@ -126,7 +126,8 @@ def check_cut(cut, line, near=1e-3):
     last = first + min(range(len(behind)), key=lambda i: abs(behind[i] - length))
     if abs(behind[last - first] - length) > near + 1e-6 * length:
         raise Fault(f"{cut.name} is {behind[last - first]:.4f} mm long, not {length:.4f}")
-    if first < 2 or last == len(places) - 1:
+    middle = line.hole and line.into_part(places[0]) < -LEAD / 2  # and it ends behind the overcut
+    if (first < 2 or last == len(places) - 1) and not middle:
         raise Fault(f"{cut.name} has no leads")
     for at in places[:first] + places[last + 1:]:
         if line.into_part(at) > TOUCH:
@@ -178,6 +179,53 @@ class Leads(FormatTest):
         self.assertGreater(cuts, PARTS)
         self.assertGreater(holes, 0)
         self.assertLess(blocked, 0.3 * PARTS + 2)
+
+    def test_narrow_openings_and_windows_have_leads(self):
+        """Each pierces within itself and stays there until it is on its line: by arcs, from the middle, or straight."""
+        shapes = [{"kind": kind, **size, **more} for width in (3, 5, 8, 20) for length in (width, 10, 40) if length >= width for turn in (0, 90, 37)
+                  for kind, size, more in (("slot", {"length_mm": length, "width_mm": width}, {"angle_deg": turn}),
+                                           ("rectangle", {"along_mm": length, "round_mm": width}, {"angle_deg": turn}),
+                                           ("rectangle", {"along_mm": length, "round_mm": width}, {"angle_deg": turn, "corners": "as_cut", "corner_radius_mm": 0}))]
+        body = {"preset": "tube_laser", "target": {"outer_diameter_mm": 114.3, "wall_mm": 5, "length_mm": 60 * len(shapes) + 60},
+                "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}}, "sampling": {"tolerance_mm": 0.05},
+                "cutouts": [{"id": str(k), "shape": shape, "at": {"z_mm": 60 * k + 60, "phi_deg": 30}} for k, shape in enumerate(shapes)]}
+        for kerf in (0.3, 1.5):
+            request = {**body, "kerf_mm": kerf}
+            result = self.service.answer("parts", request)["result"]
+            program = self.service.text("parts", request, query(LIT, torch="off", pivot_length_mm=0)).decode("ascii")
+            steps = [step for step in result["sequence"] if step["what"] != "mark"]
+            found = torch_program.replay(program, 57.15, 0)
+            self.assertEqual(len(found), len(shapes) + 2)
+            for cut, step in zip(found, steps):
+                if step["what"] != "cutout":
+                    continue
+                with self.subTest(f"{cut.name} {shapes[int(cut.name.split()[-1])]} kerf {kerf}"):
+                    line = Line(result, step, 57.15, 5)
+                    places, first = [(p.phi, p.z, p.b, p.a) for p in cut.places], joins(cut)
+                    self.assertLess(max(map(line.into_part, places[:first])), TOUCH)
+                    self.assertLess(max(map(line.off, places[first:first + 4])), 2e-3)
+
+    def test_windows_begin_on_a_side_and_bolt_holes_in_their_middle(self):
+        """Whatever the corner radius, the lead that was asked for fits; a hole that it does not fit is pierced where it is widest."""
+        windows = [{"kind": "rectangle", "along_mm": along, "round_mm": wide, "corner_radius_mm": radius, "angle_deg": turn}
+                   for along, wide, turn in ((200, 80, 0), (100, 60, 0), (80, 60, 90)) for radius in (2, 3, 4, 5, 6, 8, 10)]
+        holes = [{"kind": "circle", "diameter_mm": d} for d in (6, 8, 10, 12, 14)]
+        shapes = windows + holes
+        square = {"kind": "rectangular_tube", "height_mm": 120, "width_mm": 120, "corners": "en_10219"}
+        for target, at in (({"outer_diameter_mm": 114.3}, {"phi_deg": 30}), (square, {"face": 1, "offset_mm": 0})):
+            body = {"preset": "tube_laser", "target": {**target, "wall_mm": 5, "length_mm": 260 * len(shapes) + 260}, "kerf_mm": 1.5,
+                    "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}}, "sampling": {"tolerance_mm": 0.05},
+                    "cutouts": [{"id": str(k), "shape": shape, "wall": "developed", "at": {"z_mm": 260 * k + 260, **at}}
+                                for k, shape in enumerate(shapes)]}
+            program = self.service.text("parts", body, query(LIT, torch="off", pivot_length_mm=0)).decode("ascii")
+            cuts = dict(re.findall(r"\(cut: cut-out (\d+)\)\n((?:\(.*\n|[^(].*\n)*?)(?=\(cut: )", program))
+            self.assertEqual(len(cuts), len(shapes))
+            for k, shape in enumerate(shapes):
+                with self.subTest(f"{target} {shape}"):
+                    self.assertNotIn("leads of", cuts[str(k)])
+                    middle = "from the middle of the scrap" in cuts[str(k)]
+                    self.assertFalse(middle and shape in windows)
+                    self.assertTrue(middle or shape in windows or shape["diameter_mm"] > 10)
 
     def check(self, cut, line):
         check_cut(cut, line)

@@ -6,7 +6,7 @@ import random
 import re
 
 from gcode_test import moves
-from service import FormatTest, main
+from service import ROOT, FormatTest, main
 
 SAG = 0.02  # mm, of a block between rows
 LEAN = 1.0  # deg
@@ -148,7 +148,7 @@ class SectionProgram(FormatTest):
 
     def test_it_names_the_axes_and_lifts_clear_of_the_corners(self):
         body = end_of({"size": "SHS 100x100x5 EN 10219"}, LASER)
-        program = self.follow("SHS 100", body, 0, "&clearance_mm=30&lead_mm=3&torch=on&pierce_height_mm=1.5&pierce_delay_s=0.2&cut_height_mm=1.5", 1.5)
+        program = self.follow("SHS 100", body, 0, "&clearance_mm=30&lead_mm=3&torch=on&acknowledge=root_opens&pierce_height_mm=1.5&pierce_delay_s=0.2&cut_height_mm=1.5", 1.5)
         self.assertIn("(A keeps the normal of the wall up, Y and Z follow the wall, Y0: over the axis of the tube, face 2 lies to -Y)", program)
         reach = math.hypot(40, 40) + 10
         self.assertIn(f"G0 Z{reach + 30:.5f}", program)
@@ -179,6 +179,25 @@ class SectionProgram(FormatTest):
                     self.opening(name, *flat[step["index"]], torches, outline, girth)
                 else:
                     self.end(name, result["ends"][step["what"]], torches, outline, girth)
+
+    def test_narrow_windows_have_leads(self):
+        """Square corners, rounded by half the kerf or not at all, turned or not: there is no opening without room for its lead."""
+        for kerf in (0.3, 1.5):
+            shapes = [{"kind": "rectangle", "along_mm": length, "round_mm": width, "angle_deg": turn, **corner} for width in (3, 4, 8) for length in (width, 10, 40)
+                      if length >= width for turn in (0, 90, 37) for corner in ({}, {"corners": "as_cut", "corner_radius_mm": 0})]
+            body = {**LASER, "target": {"size": "SHS 100x100x5 EN 10219", "length_mm": 60 * len(shapes) + 60}, "kerf_mm": kerf,
+                    "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+                    "cutouts": [{"id": str(k), "shape": shape, "at": {"z_mm": 60 * k + 60, "face": 1}} for k, shape in enumerate(shapes)]}
+            groups = self.service.answer("parts", body)["result"]["cutouts"]
+            program = self.service.text("parts", body, "format=gcode&speed_mm_min=900&pivot_length_mm=0&lead_mm=5").decode("ascii")
+            cuts = {re.search(r"cut-out (\d+)", name).group(1): blocks for name, blocks in cuts_of(program) if "cut-out" in name}
+            self.assertEqual(len(cuts), len(shapes))
+            for group in groups:
+                inside = [(s, z) for s, z in zip(group["points"]["torch_girth_mm"], group["points"]["torch_z_mm"])]
+                low, high = ([pick(at[axis] for at in inside) for axis in (0, 1)] for pick in (min, max))
+                for at in cuts[group["id"]]:
+                    x, y, z, *_ = torch(at, 0)
+                    self.assertTrue(low[0] - 0.12 <= y <= high[0] + 0.12 and low[1] - 0.12 <= z <= high[1] + 0.12, f"{group['id']}: {at}")
 
     def opening(self, name, group, one, torches, outline, girth):
         first = group["instances"][0]
@@ -218,6 +237,14 @@ class SectionProgram(FormatTest):
                     "at": {"z_mm": 250 + 80 * i, "face": dice.randint(1, 4), "offset_mm": dice.uniform(-4, 4)}} for i, shape in enumerate(shapes)]
         return {"target": target, "ends": {"start": end, "finish": end}, "kerf_mm": 0.4, "cutouts": cutouts,
                 **{key: body[key] for key in ("preset", "torch") if key in body}}
+
+    def test_a_tube_tables_process_gives_what_the_request_leaves_out(self):
+        body = json.loads((ROOT / "examples/parts/shs-base-post.json").read_text())
+        table = next(m for m in json.loads(self.service.get("/v1/machines"))["machines"] if m["machine"]["name"] == "tube_table")
+        taken = self.service.text("parts", body, "format=gcode&torch=on&acknowledge=root_opens&machine=tube_table&material=steel").decode("ascii")
+        self.assertIn("(machine: tube_table, table ", taken)
+        speed = float(re.search(r"#<speed_mm_min> = ([\d.]+)", taken).group(1))
+        self.assertIn(speed, [row["speed_mm_min"] for row in table["process"]["rows"]])
 
     def test_what_it_needs_is_said_at_its_option(self):
         body = end_of({"size": "SHS 100x100x5 EN 10219"}, LASER)

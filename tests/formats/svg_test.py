@@ -3,7 +3,10 @@
 import itertools
 import json
 import math
+import pathlib
 import re
+import subprocess
+import tempfile
 import xml.etree.ElementTree as ElementTree
 
 import cairo
@@ -276,6 +279,24 @@ class Svg(FormatTest):
                     self.assertEqual(drawn, [len(e.get("points").split()) for e in lines])
                     count += len(drawn)
         self.assertGreater(count, 50)
+
+    def test_a_scanner_reads_part_and_result_of_a_work_order(self):
+        """dmtxread, of the head of a sheet printed at 254 dots an inch; DataMatrix has the characters of ISO 8859-1."""
+        for name, part in (("k-joint-brace", "B-12"), ("shs-base-post", "Stütze 7/2 \"links\" & co"), ("chord-with-holes", HOSTILE["part"])):
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                body = json.loads((ROOT / f"examples/parts/{name}.json").read_text()) | {"reference": {"part": part}}
+                answer = self.service.answer("parts", body)
+                drawing = self.drawing("parts", body, "work_order")
+                image = pathlib.Path(folder) / "sheets.png"
+                whole = cairo.ImageSurface.create_for_data(bytearray(drawing.bytes), cairo.FORMAT_RGB24, drawing.width, drawing.height, drawing.stride)
+                wide = round(90 * DPI / 25.4)  # the head's right end
+                head = cairo.ImageSurface(cairo.FORMAT_RGB24, wide, round(20 * DPI / 25.4))
+                context = cairo.Context(head)
+                context.set_source_surface(whole, wide - drawing.width, -8 * DPI / 25.4)
+                context.paint()
+                head.write_to_png(str(image))
+                read = subprocess.run(["dmtxread", "-m20000", "-N1", str(image)], capture_output=True, check=True)
+                self.assertEqual(read.stdout.decode("latin-1"), f"{part}\n{answer['job']['result_sha256']}")
 
     def test_a_mark_of_a_point_is_drawn(self):
         root = ElementTree.fromstring(self.service.text("parts", examples("parts")["chord-with-holes"], "format=svg&view=work_order"))

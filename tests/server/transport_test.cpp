@@ -415,35 +415,6 @@ TEST(Transport, CountsAJobsOwnCpu) {
   }
 }
 
-/// The job also frees the memory that helpers hold for it, after they are gone.
-TEST(Transport, StopsAJobInTimeToFreeItsHelpersMemory) {
-  constexpr std::size_t kEach = std::size_t{128} << 20;
-  constexpr auto kCpu = 400ms;
-  const auto handle = [](const Request& request) {
-    std::atomic<int> both = 0;
-    const auto hold = [&](std::size_t) {
-      JobMemory::take(kEach);
-      ++both;
-      while (!request.stop.stop_requested()) {
-      }
-    };
-    request.turns(2, hold);
-    const auto used = request.used_cpu();
-    for (int i = 0; i < both; ++i) JobMemory::give(kEach);
-    return Response{.body = both == 2 ? std::to_string(used.count()) : "nobody helped"};
-  };
-  Service service = service_of(handle);
-  service.budget = [kCpu](const Request&) { return Budget{.cpu = kCpu, .wall = 10s}; };
-  TransportOptions options;
-  options.slots = 2;
-  const Port port(std::move(service), options);
-  std::chrono::nanoseconds used = kCpu;
-  // A virtual machine pauses at times, and its clocks go on.
-  for (int tries = 0; tries < 3 && used >= kCpu - 40ms; ++tries)
-    used = std::chrono::nanoseconds(std::stoll(one(port, get("/held"))));
-  EXPECT_LT(used, kCpu - 40ms);  // 0.16 ms per MiB; the job's own thread holds half
-}
-
 /// As many silent sockets as there may be, begun or not: a newcomer is answered all the same.
 TEST(Transport, AnswersNewClientsDespiteSilentSockets) {
   TransportOptions options;

@@ -26,9 +26,8 @@ inline Posted post(std::string_view path, std::string_view body, std::string_vie
                        .body = body,
                        .job_id = {},
                        .request_id = "test"};
-  const api::Context context{.stop = {}, .clock = {}, .status = [](ErrorKind kind) {
-                               return 400 + static_cast<int>(kind);
-                             }};
+  const api::Context context{.clock = {},
+                             .status = [](ErrorKind kind) { return 400 + static_cast<int>(kind); }};
   Posted out{api::dispatch(call, context), {}};
   if (auto parsed = api::parse(out.outcome.body)) out.body = *std::move(parsed);
   return out;

@@ -20,8 +20,9 @@ class Service:
         stock = command[0].endswith("stock_server")
         words = [command[0]] if stock else [command[0], "--port", str(port), "--admin-port", "0", *command[1:]]
         # An address sanitizer keeps freed memory aside, 256 MiB of it unless told: what is held could not be seen.
+        own = {name: value for name, value in os.environ.items() if not name.startswith("TUBECUT_")}  # those are of the tests
         aside = os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=1:thread_local_quarantine_size_kb=64"
-        self.process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=said, env={**os.environ, "ASAN_OPTIONS": aside})
+        self.process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=said, env={**own, "ASAN_OPTIONS": aside})
         self.stock = stock
 
     def __enter__(self):

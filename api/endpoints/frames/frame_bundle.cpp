@@ -38,12 +38,10 @@ struct Folder {
 
 class Bundle {
  public:
-  explicit Bundle(const std::stop_token& stop) : stop_(stop) {}
-
   Bundled add(std::string name, std::string_view format, std::string_view media,
               std::string_view content) {
-    zip_.add(name, content, stop_);
-    return {std::move(name), std::string(format), std::string(media), sha256(content, stop_),
+    zip_.add(name, content);
+    return {std::move(name), std::string(format), std::string(media), sha256(content),
             content.size()};
   }
   /// Returns the name, with a number appended if another file has it, ignoring case.
@@ -61,7 +59,6 @@ class Bundle {
  private:
   ZipArchive zip_;
   std::set<std::string> taken_;
-  std::stop_token stop_;
 };
 
 /// Returns a name that every file system accepts; the hash at its end makes it differ from device
@@ -114,13 +111,29 @@ const FormatName& format_of(const BundleFile& file) {
   return *std::ranges::find(format_names<Parts>(), file.format, &FormatName::name);
 }
 
-/// Of the codes acknowledged those that this part warns of.
-std::vector<std::string> acknowledged_of(const Answer& answer,
+/// Of the codes acknowledged those of this verdict.
+std::vector<std::string> acknowledged_of(const Verdict& verdict,
                                          const std::vector<std::string>& all) {
   std::vector<std::string> out;
   for (const auto& code : all)
-    if (std::ranges::count(answer.verdict.codes, code) > 0) out.push_back(code);
+    if (std::ranges::count(verdict.codes, code) > 0) out.push_back(code);
   return out;
+}
+
+/// Returns the verdict of the frame's own warnings, which no part has: of ends that are free, of
+/// members that overlap.
+Verdict own_verdict(const FrameJob& frame, const Caption& caption) {
+  return judge(frame.frame.warnings, *caption.request, {}, {});
+}
+
+/// Returns the part's verdict, to which the frame's own is added: a lit program cuts for both.
+Verdict to_cut(Verdict part, const Verdict& frame) {
+  if (part.status == "ok") part.status = frame.status;
+  part.reasons.insert(part.reasons.end(), frame.reasons.begin(), frame.reasons.end());
+  part.warnings.insert(part.warnings.end(), frame.warnings.begin(), frame.warnings.end());
+  for (const auto& code : frame.codes)
+    if (std::ranges::count(part.codes, code) == 0) part.codes.push_back(code);
+  return part;
 }
 
 /// Tabs of holes are of the parts that have any.
@@ -128,21 +141,22 @@ bool has_tabs(const Worked<Parts>& part, const torch::Tabs& tabs) {
   return tabs.of != torch::Tabs::Of::holes || !part.out.holes.empty();
 }
 
-void refuse_unmet(const MadeParts& made, const Caption& caption) {
+void refuse_unmet(const Verdict& own, const MadeParts& made, const Caption& caption) {
   if (const auto& tabs = caption.options.tabs;
       tabs && std::ranges::none_of(made, [&](const MadePart& part) {
         return part.made && has_tabs(*part.made, *tabs);
       }))
     throw UnfitOption{"tabs_of", "no part has a hole"};
   for (const auto& code : caption.options.acknowledged)
-    if (std::ranges::none_of(made, [&](const MadePart& part) {
+    if (std::ranges::count(own.codes, code) == 0 &&
+        std::ranges::none_of(made, [&](const MadePart& part) {
           return part.made && std::ranges::count(part.made->answer.verdict.codes, code) > 0;
         }))
-      throw UnfitOption{"acknowledge", "no part warns of " + code};
+      throw UnfitOption{"acknowledge", "neither the frame nor a part warns of " + code};
 }
 
 Folder write_folder(const FrameJob& frame, std::size_t i, const Worked<Parts>& part,
-                    const Caption& of_frame, Bundle& bundle) {
+                    const Caption& of_frame, const Verdict& own, Bundle& bundle) {
   Folder out;
   auto caption = of_frame;
   caption.options = {};
@@ -150,19 +164,22 @@ Folder write_folder(const FrameJob& frame, std::size_t i, const Worked<Parts>& p
   caption.members = members_of_part(frame, i);
   auto program = caption;  // the query's other options apply only to those
   program.options = of_frame.options;
-  program.options.acknowledged = acknowledged_of(part.answer, of_frame.options.acknowledged);
+  auto to_program = part.answer;
+  if (program.options.torch) to_program.verdict = to_cut(std::move(to_program.verdict), own);
+  program.options.acknowledged = acknowledged_of(to_program.verdict, of_frame.options.acknowledged);
   if (const auto& tabs = of_frame.options.tabs; tabs && !has_tabs(part, *tabs))
     program.options.tabs.reset();
   const auto stem =
       bundle.own(file_name(caption.reference.front().second, part.answer.result_sha256));
-  const auto request = dump(part.answer.request, of_frame.stop);
+  const auto request = dump(part.answer.request);
   out.files.push_back(
       bundle.add(stem + "/" + stem + ".request.json", "request", kJsonMedia, request));
   for (const auto& file : of_frame.options.files) {
-    ask(of_frame.stop);
+    ask();
     const auto& format = format_of(file);
-    auto text = print_document<Parts>(part.spec, part.out, format,
-                                      file.needs_speed ? program : caption, part.answer);
+    auto text =
+        print_document<Parts>(part.spec, part.out, format, file.needs_speed ? program : caption,
+                              file.needs_speed ? to_program : part.answer);
     if (text) {
       const auto as = file.needs_speed
                           ? program_file(format, program.options, Parts::kId, {}, "")
@@ -213,7 +230,7 @@ void write_folder_row(const FrameJob& frame, std::size_t i, const MadePart& part
 std::string manifest(const FrameJob& frame, const MadeParts& made,
                      const std::vector<Folder>& folders, const std::vector<Bundled>& files,
                      const Caption& caption) {
-  Writer out(1 << 12, caption.stop);
+  Writer out(1 << 12);
   out.object([&](Writer& w) {
     write_provenance(caption, w);
     w.array("files", files, write_file);
@@ -230,15 +247,16 @@ std::string manifest(const FrameJob& frame, const MadeParts& made,
 }  // namespace
 
 std::string frame_bundle(const FrameJob& frame, const MadeParts& made, const Caption& caption) {
-  refuse_unmet(made, caption);
-  Bundle bundle(caption.stop);
+  const auto own = own_verdict(frame, caption);
+  refuse_unmet(own, made, caption);
+  Bundle bundle;
   std::vector<Folder> folders(made.size());
   for (std::size_t i = 0; i < made.size(); ++i)
     if (const auto& part = made[i].made)
-      folders[i] = write_folder(frame, i, *part, caption, bundle);
+      folders[i] = write_folder(frame, i, *part, caption, own, bundle);
   const std::vector files{
       bundle.add("cut-list.csv", "cut-list", "text/csv", cut_list_csv(frame, made, caption)),
-      bundle.add("request.json", "request", kJsonMedia, dump(*caption.request, caption.stop))};
+      bundle.add("request.json", "request", kJsonMedia, dump(*caption.request))};
   bundle.add("manifest.json", "manifest", kJsonMedia,
              manifest(frame, made, folders, files, caption));
   return bundle.take();

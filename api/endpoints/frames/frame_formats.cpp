@@ -39,7 +39,7 @@ StepFile::Shape add_solid(const FrameJob& frame, std::size_t i, const Worked<Par
   const auto& name = name_of_part(frame, i);
   try {
     if (part.out.of_section)
-      return file.solid(section_solid(part.spec.of_section, *part.out.of_section, caption.stop),
+      return file.solid(section_solid(part.spec.of_section, *part.out.of_section),
                         product_of(part.spec.of_section.section, name, caption));
     return file.solid(part_solid(part.spec.part, part.out, caption),
                       product_of(part.spec.part.target, name, caption));
@@ -53,12 +53,15 @@ StepFile::Shape add_solid(const FrameJob& frame, std::size_t i, const Worked<Par
 std::string cut_list_csv(const FrameJob& frame, const MadeParts& made, const Caption& caption) {
   std::vector<std::pair<std::string, Columns>> rows;
   for (std::size_t i = 0; i < made.size(); ++i) {
-    ask(caption.stop);
+    ask();
     CsvRow row;
     cut_list_row(frame, i, made[i], row);
     rows.emplace_back(name_of_part(frame, i), std::move(row.columns));
   }
-  return Csv(caption).stacked("part", rows).print();
+  Csv out(caption);
+  for (const auto& [name, value] : caption.reference)
+    out.remark(name + ": " + value + (name == "quantity" ? " frames (count is of one frame)" : ""));
+  return out.stacked("part", rows).print();
 }
 
 std::string frame_step(const FrameJob& frame, const MadeParts& made, const Caption& caption) {

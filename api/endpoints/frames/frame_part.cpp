@@ -12,6 +12,7 @@
 #include "api/wire/frame_names.hpp"
 #include "api/wire/sha256.hpp"
 #include "api/wire/writer.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 
 namespace tubecut::api {
@@ -48,11 +49,31 @@ class PartWriter {
     }
     if (const auto& cutouts = request_.cutouts[member]; !(cutouts == Json{}))
       out.emplace_back("cutouts", cutouts);
-    for (const auto& one : request_.once) out.push_back(one);
+    if (const auto& texts = request_.texts[member]; !(texts == Json{}))
+      out.emplace_back("texts", texts);
+    for (const auto& one : request_.once)
+      if (one.first != "accept")
+        out.push_back(one);
+      else
+        out.emplace_back(one.first, limits_of(member, one.second));
     return Json{std::move(out)};
   }
 
  private:
+  /// Returns the limits that something is measured for in this member's part, because a part by
+  /// itself refuses the others.
+  [[nodiscard]] Json limits_of(std::size_t member, const Json& accept) const {
+    const Measured of{.preset = request_.preset,
+                      .round = !is_section(member),
+                      .cutouts = !(request_.cutouts[member] == Json{}),
+                      .holes = !frame_.pieces[member].holes.empty()};
+    Json::Object out;
+    if (const auto* limits = accept.as<Json::Object>())
+      for (const auto& one : *limits)
+        if (missing_for(one.first, of).empty()) out.push_back(one);
+    return Json{std::move(out)};
+  }
+
   [[nodiscard]] bool is_section(std::size_t member) const {
     return request_.spec.members[member].section.has_value();
   }
@@ -293,11 +314,11 @@ std::unique_ptr<const Parts::Spec> read(const Json& part) {
   return std::make_unique<const Parts::Spec>(std::move(spec));
 }
 
-Result<Forms> forms(const PartWriter& writer, const Names& names, const std::stop_token& stop) {
+Result<Forms> forms(const PartWriter& writer, const Names& names) {
   Forms out;
   std::map<std::string, std::size_t> known;
   for (std::size_t i = 0; i < names.of_members.size(); ++i) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     TRY(const auto part, writer.part(i, names));
     auto text = dump(part);
     const auto [at, fresh] = known.emplace(text, out.texts.size());
@@ -325,8 +346,7 @@ Result<std::vector<frame::Shape>> shapes(const PartWriter& writer, const Forms& 
 /// Groups parts first by only their shape, then also by the current parts set on them, until no
 /// group splits any more.
 Result<std::vector<frame::AlikeGroup>> gathered(const PartWriter& writer, const Forms& known,
-                                                const FrameRequest& request, Names& names,
-                                                const std::stop_token& stop) {
+                                                const FrameRequest& request, Names& names) {
   std::vector<frame::AskedPart> parts;
   for (const auto& one : known.read)
     parts.push_back(
@@ -334,7 +354,7 @@ Result<std::vector<frame::AlikeGroup>> gathered(const PartWriter& writer, const 
   frame::Gatherer gatherer(parts, known.texts, request.alike_within);
   for (std::size_t before = 0;;) {
     TRY(const auto all, shapes(writer, known, names));
-    TRY(auto groups, gatherer.groups(all, stop));
+    TRY(auto groups, gatherer.groups(all));
     for (const auto& group : groups)
       for (const auto& [i, laid] : group.shapes)
         names.of_members[i] = request.spec.members[group.shapes.front().first].name;
@@ -345,13 +365,12 @@ Result<std::vector<frame::AlikeGroup>> gathered(const PartWriter& writer, const 
 
 }  // namespace
 
-Result<FrameParts> parts_of(const FrameRequest& request, const frame::Frame& frame,
-                            const std::stop_token& stop) {
+Result<FrameParts> parts_of(const FrameRequest& request, const frame::Frame& frame) {
   const auto members = request.spec.members.size();
   const PartWriter writer(request, frame);
   Names names{.ids = false, .of_members = std::vector<std::string>(members, "-")};
-  TRY(auto known, forms(writer, names, stop));
-  TRY(auto groups, gathered(writer, known, request, names, stop));
+  TRY(auto known, forms(writer, names));
+  TRY(auto groups, gathered(writer, known, request, names));
   FrameParts out{.parts = {},
                  .laid = std::vector<frame::Laid>(members),
                  .forms = std::move(known.read),
@@ -366,7 +385,7 @@ Result<FrameParts> parts_of(const FrameRequest& request, const frame::Frame& fra
       out.laid[i] = std::move(laid);
     }
     TRY(const auto unnamed, writer.part(group.by, names));
-    part.sha256 = sha256(dump(unnamed), stop);
+    part.sha256 = sha256(dump(unnamed));
     TRY(part.request, writer.part(group.by, named));
     out.parts.push_back(std::move(part));
   }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -35,7 +34,6 @@ struct FrameParts {
 /// surfaces differ by at most the requested distance.
 /// Errors  joint_contradicts (joints/i/...: two joints of one end require different cuts),
 ///         unsupported_combination (ends/i/...: the end is left square), cancelled.
-[[nodiscard]] Result<FrameParts> parts_of(const FrameRequest& request, const frame::Frame& frame,
-                                          const std::stop_token& stop);
+[[nodiscard]] Result<FrameParts> parts_of(const FrameRequest& request, const frame::Frame& frame);
 
 }  // namespace tubecut::api

@@ -82,7 +82,8 @@ class Sources {
       const bool sized = steps.size() > 1 && steps[1] != "length_mm" && steps[1] != "id";
       return member_at(frame_, member_) + (sized ? from(steps, 1) : "");
     }
-    if (steps[0] == "cutouts") return member_at(frame_, member_) + from(steps, 0);
+    if (steps[0] == "cutouts" || steps[0] == "texts")
+      return member_at(frame_, member_) + from(steps, 0);
     for (const auto& [name, value] : frame_.once)
       if (name == steps[0]) return from(steps, 0);
     return member_at(frame_, member_);
@@ -195,7 +196,14 @@ std::string in_frame(const FrameJob& frame, std::size_t part, const std::string&
 }
 
 Problem in_frame(const FrameJob& frame, std::size_t part, Problem problem) {
-  for (auto& issue : problem.issues) issue.pointer = in_frame(frame, part, issue.pointer);
+  for (auto& issue : problem.issues) {
+    const bool of_end = issue.pointer.starts_with("/ends/");
+    issue.pointer = in_frame(frame, part, issue.pointer);
+    if (issue.code == ErrorCode::open_profile && of_end)
+      issue.hint +=
+          "; if the member is wider than the one that it meets, give it the lower priority "
+          "number, so that its end stays square, or cut it by a plane in others";
+  }
   auto out = field_problem(std::move(problem.issues));
   out.code = problem.code;
   for (auto& one : problem.suspicions) one.member = in_frame(frame, part, one.member);

@@ -322,13 +322,28 @@ void decode_once(Reader& in, FrameRequest& out) {
       if (name == one) out.once.emplace_back(name, value);
 }
 
+/// Returns whether any member has its own.
+bool any(const std::vector<Json>& of_members) {
+  return std::ranges::any_of(of_members, [](const Json& own) { return !(own == Json{}); });
+}
+
+/// A limit holds for the parts that it is measured for, so some part must have it.
+void check_frame_accepts(Reader& in, const FrameRequest& frame) {
+  const auto& spec = frame.spec;
+  const bool sound = in.sound("members");
+  const auto round = [](const joint::Member& m) { return !m.section; };
+  const auto hole = [](const frame::StatedJoint& joint) { return joint.how.hole; };
+  check_accepts(in, {.preset = frame.preset,
+                     .round = !sound || std::ranges::any_of(spec.members, round),
+                     .cutouts = !sound || any(frame.cutouts),
+                     .holes = spec.found.hole || std::ranges::any_of(spec.joints, hole)});
+}
+
 }  // namespace
 
 FrameRequest decode_frame_request(Reader& in) {
   FrameRequest out;
   out.preset = decode_preset(in);
-  check_accepts(in, out.preset);
-  check_seam_limit(in, out.preset, false);
   auto members = decode_named_members(in, out.preset);
   std::vector<WorldCutter> others;
   in.note("others");
@@ -339,6 +354,7 @@ FrameRequest decode_frame_request(Reader& in) {
   out.walls = members.walls;
   out.sections = members.sections;
   out.cutouts = std::move(members.cutouts);
+  out.texts = std::move(members.texts);
   for (auto& one : others) out.spec.others.push_back({std::move(one.partner), std::move(one.name)});
   if (const auto within =
           in.optional_object("connect", [](Reader& c) { return c.number("within_mm", kDistance); }))
@@ -355,13 +371,14 @@ FrameRequest decode_frame_request(Reader& in) {
   out.alike_within = in.number("alike_within_mm", kAlike, kAlikeByDefault);
   in.note("merge_in_line");
   if (in.has("merge_in_line")) out.merge = in.flag("merge_in_line");
-  const bool any =
-      std::ranges::any_of(out.cutouts, [](const Json& one) { return !(one == Json{}); });
-  if (out.merge && any)
-    in.issue({.code = ErrorCode::unsupported_combination,
-              .pointer = "merge_in_line",
-              .hint = "cut-outs are placed from a member's own ends; draw merged members as one"},
-             in.find("merge_in_line"));
+  if (out.merge && (any(out.cutouts) || any(out.texts)))
+    in.issue(
+        {.code = ErrorCode::unsupported_combination,
+         .pointer = "merge_in_line",
+         .hint =
+             "cut-outs and texts are placed from a member's own ends; draw merged members as one"},
+        in.find("merge_in_line"));
+  check_frame_accepts(in, out);
   decode_once(in, out);
   return out;
 }

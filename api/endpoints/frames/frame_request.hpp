@@ -31,7 +31,7 @@ struct FrameRequest {
   frame::FrameSpec spec;
   std::vector<double> walls;           // of each member as it is given, perhaps out of range
   std::vector<Json::Object> sections;  // of each that is not round: the fields of its section
-  std::vector<Json> cutouts;           // of each member; null without
+  std::vector<Json> cutouts, texts;    // of each member; null without
   std::vector<std::size_t> others;     // of each of the others: which of the request's it is
   std::size_t others_left_out = 0;     // of too many, those that no joint names
   Json::Object end;                    // default cut of an end, in the form of a part's end

@@ -66,10 +66,11 @@ frame::Shape shape_of(const Json& part) {
   const auto& ends = *part.find("ends");
   out.key += end_key(*ends.find("start"), out.start);
   out.key += end_key(*ends.find("finish"), out.finish);
-  if (const auto* cutouts = part.find("cutouts")) {
-    out.key += dump(*cutouts);
-    out.has_cutouts = true;
-  }
+  for (const auto* name : {"cutouts", "texts"})
+    if (const auto* own = part.find(name)) {
+      out.key += dump(*own);
+      out.has_cutouts = true;
+    }
   if (const auto* marks = part.find("marks"))
     for (const auto& one : *marks->as<Json::Array>()) out.marks.push_back(text(*one.find("text")));
   if (const auto* holes = part.find("holes"))

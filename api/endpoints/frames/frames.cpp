@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <utility>
@@ -17,9 +18,8 @@ namespace tubecut::api {
 namespace {
 
 /// The run of a job within another: nobody times or logs it.
-Run inner_run(const std::stop_token& stop) {
-  return {.stop = stop,
-          .stage = [](std::string_view) {},
+Run inner_run() {
+  return {.stage = [](std::string_view) {},
           .understood = [](std::string_view) {},
           .judged = [](const Answer&) {}};
 }
@@ -29,11 +29,10 @@ bool spoils_all(ErrorCode code) {
   return info(code).kind == ErrorKind::internal || code == ErrorCode::cancelled;
 }
 
-Result<MadePart> make(const Json& request, const std::stop_token& stop) {
+Result<MadePart> make(const Json& request) {
   Reader in(request);
-  in.set_stop(stop);
   const auto common = read_common_fields(in, Parts::kAccepts);
-  auto run = inner_run(stop);
+  auto run = inner_run();
   run.accepted = common.accept;
   auto made = worked<Parts>(in, run);
   MadePart out;
@@ -43,7 +42,7 @@ Result<MadePart> make(const Json& request, const std::stop_token& stop) {
     out.problem = std::move(made).error();
     return out;
   }
-  made->answer.result_sha256 = made->hashed(stop, in_order);
+  made->answer.result_sha256 = made->hashed(in_order);
   out.made = std::make_unique<const Worked<Parts>>(*std::move(made));
   return out;
 }
@@ -72,12 +71,12 @@ struct FrameBase {
   }
 
   /// Merges pieces in line, if requested.
-  static Result<void> merge(Spec& spec, const std::stop_token& stop) {
+  static Result<void> merge(Spec& spec) {
     if (!spec.merge) return {};
     frame::MergeSpec besides;
     for (const auto& one : spec.ends) besides.kept.emplace_back(one.member, one.end);
     besides.alike = [&](std::size_t a, std::size_t b) { return spec.cuts[a] == spec.cuts[b]; };
-    TRY(auto merged, frame::merge_in_line(spec.spec, besides, stop));
+    TRY(auto merged, frame::merge_in_line(spec.spec, besides));
     auto& out = spec.merged.emplace();
     for (const auto& m : spec.spec.members) out.ids.push_back(m.name);
     std::vector<double> walls;
@@ -89,6 +88,7 @@ struct FrameBase {
     spec.walls = std::move(walls);
     spec.sections = std::move(sections);
     spec.cutouts.assign(spec.walls.size(), Json{});  // decode refuses any
+    spec.texts.assign(spec.walls.size(), Json{});
     std::vector<OwnCut> cuts;
     for (const auto joint : merged.joints) cuts.push_back(spec.cuts[joint]);
     for (auto& one : spec.ends) {
@@ -106,12 +106,12 @@ struct FrameBase {
     return {};
   }
 
-  static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
-    TRY(merge(spec, stop));
+  static Result<Spec> resolve(Spec spec) {
+    TRY(merge(spec));
     const auto as_asked = [&](Error error) { return in_request(spec, std::move(error)); };
-    TRY(spec.frame, frame::solve(spec.spec, stop).map_error(as_asked));
+    TRY(spec.frame, frame::solve(spec.spec).map_error(as_asked));
     for (auto& warning : spec.frame.warnings) warning.member = in_request(spec, warning.member);
-    TRY(auto parts, parts_of(spec, spec.frame, stop).map_error(as_asked));
+    TRY(auto parts, parts_of(spec, spec.frame).map_error(as_asked));
     static_cast<FrameParts&>(spec) = std::move(parts);
     spec.part_of.resize(spec.spec.members.size());
     for (std::size_t i = 0; i < spec.parts.size(); ++i)
@@ -119,13 +119,13 @@ struct FrameBase {
     return spec;
   }
 
-  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
+  static std::vector<Check> verify(const Spec& spec, const Out& out) {
     std::vector<const part::PartSpec*> asked;
     for (std::size_t i = 0; i < spec.part_of.size(); ++i) {
       const auto* own = spec.own(i);
       asked.push_back(own == nullptr ? nullptr : &own->part);
     }
-    auto checks = frame::verify(spec.spec, spec.frame, asked, stop);
+    auto checks = frame::verify(spec.spec, spec.frame, asked);
     for (const auto& part : out)
       if (part.made) keep_worst(checks, part.made->answer.checks);
     return checks;
@@ -141,11 +141,11 @@ struct FrameBase {
 };
 
 struct Frames : FrameBase {
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop, const Turns& turns) {
+  static Result<Out> compute(const Spec& spec, const Turns& turns) {
     std::vector<std::optional<Result<MadePart>>> made(spec.parts.size());
     turns(made.size(), [&](std::size_t i) {
-      ask(stop);
-      made[i] = make(spec.parts[i].request, stop);
+      ask();
+      made[i] = make(spec.parts[i].request);
     });
     Out out;
     out.reserve(made.size());
@@ -157,7 +157,7 @@ struct Frames : FrameBase {
     return out;
   }
 
-  /// Returns the warnings of the ends and of members, then one warning of each code per part, and
+  /// Returns the warnings of the ends and of members, then of each part the worst of each code, and
   /// the reason if a part is missing. Numbers that may be in another unit count for the frame if
   /// the frame itself has that warning.
   static std::vector<Warning> warnings(const Spec& spec, const Out& out) {
@@ -170,17 +170,24 @@ struct Frames : FrameBase {
         all.push_back({.code = WarningCode::no_part, .member = at, .detail = told(name, *why)});
         continue;
       }
-      // Warnings of the frame itself.
-      std::vector<WarningCode> said{WarningCode::unit_suspicion, WarningCode::ghost_contact};
+      // Those are warnings of the frame itself.
+      const std::array said{WarningCode::unit_suspicion, WarningCode::ghost_contact};
+      std::vector<const Warning*> worst;  // of each code
       for (const auto& w : out[i].made->answer.warnings) {
         if (info(w.code).severity != Severity::cut || std::ranges::count(said, w.code) > 0)
           continue;
-        said.push_back(w.code);
-        const auto pointer = in_frame(spec, i, pointer_of(w.member, out[i].made->answer.request));
-        all.push_back({.code = w.code,
+        const auto known = std::ranges::find(worst, w.code, &Warning::code);
+        if (known == worst.end())
+          worst.push_back(&w);
+        else if (w.most > (*known)->most)
+          *known = &w;
+      }
+      for (const auto* w : worst) {
+        const auto pointer = in_frame(spec, i, pointer_of(w->member, out[i].made->answer.request));
+        all.push_back({.code = w->code,
                        .member = at,
                        .detail = "part " + name + " at " + pointer +
-                                 (w.detail.empty() ? "" : ": " + w.detail)});
+                                 (w->detail.empty() ? "" : ": " + w->detail)});
       }
     }
     return all;
@@ -218,9 +225,7 @@ struct Frames : FrameBase {
 
 /// Only the frame, and its parts as requests.
 struct FrameLines : FrameBase {
-  static Result<Out> compute(const Spec& spec, const std::stop_token&) {
-    return Out(spec.parts.size());
-  }
+  static Result<Out> compute(const Spec& spec) { return Out(spec.parts.size()); }
   static std::vector<Warning> warnings(const Spec& spec, const Out&) { return spec.frame.warnings; }
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }
   static void encode(const Spec& spec, const Out& out, Writer& w) {
@@ -231,10 +236,10 @@ struct FrameLines : FrameBase {
     write_merged(spec, w);
     if (spec.others_left_out > 0) w.field("others_left_out", spec.others_left_out);
   }
-  static std::string lines(const Spec& spec, const std::stop_token& stop) {
+  static std::string lines(const Spec& spec) {
     std::string all;
     for (std::size_t i = 0; i < spec.parts.size(); ++i) {
-      Writer line(1024, stop);
+      Writer line(1024);
       line.object([&](Writer& o) {
         o.field("id", name_of_part(spec, i));
         o.field("endpoint", Parts::kId);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "api/endpoints/cutout_codec.hpp"
+#include "api/endpoints/cutouts/cutout_codec.hpp"
 #include "api/endpoints/frames/renaming.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
@@ -25,7 +25,7 @@ struct NamedMember {
   joint::Member member;
   bool nominal = false;
   std::vector<std::pair<std::string, joint::Joint>> joints;
-  Json cutouts = {};
+  Json cutouts = {}, texts = {};
 };
 
 /// How cut-outs of a frame's members are cut.
@@ -34,22 +34,23 @@ struct CutoutRule {
   double kerf;
 };
 
-/// Decodes the cut-outs of a frame's member. Those of a round one are placed by its `up`.
+/// Decodes cut-outs and texts of a frame's member. Those of a round one are placed by its `up`.
 void decode_member_cutouts(Reader& in, const CutoutRule& rule, bool sure, NamedMember& named) {
-  in.note("cutouts");
-  if (!in.has("cutouts")) return;
   const auto& m = named.member;
   bevel::TableSpec once;
   once.target = {.outer_radius = m.outer_radius, .wall = m.wall};
   once.kerf = rule.kerf;
   const auto cutouts =
       decode_cutouts(in, rule.preset, once, m.section ? &*m.section : nullptr, sure);
-  for (const auto& [name, value] : in.echo())
+  for (const auto& [name, value] : in.echo()) {
     if (name == "cutouts" && !cutouts.all.empty()) named.cutouts = value;
-  if (cutouts.all.empty() || m.section || in.has("up")) return;
+    if (name == "texts" && !cutouts.texts.empty()) named.texts = value;
+  }
+  const bool any = !cutouts.all.empty() || !cutouts.texts.empty();
+  if (!any || m.section || in.has("up")) return;
   in.issue({.code = ErrorCode::missing_field,
             .pointer = "up",
-            .hint = "places of cut-outs round the tube count from this side"});
+            .hint = "places of cut-outs and texts round the tube count from this side"});
 }
 
 /// Range of a member that the service does not cut: only its position matters.
@@ -254,7 +255,6 @@ std::vector<bool> out_of_range(Reader& in, const CutoutRule& rule) {
   bool any = false;
   for (std::size_t i = 0; items != nullptr && i < items->size(); ++i) {
     Reader alone((*items)[i]);
-    alone.set_stop(in.stop());
     if ((*items)[i].as<Json::Object>() != nullptr) (void)decode_member(alone, false, false, &rule);
     const auto issues = alone.finish_root();
     any = any || issues.empty();
@@ -290,6 +290,7 @@ NamedMembers decode_named_members(Reader& in, Preset preset) {
          const auto i = out.walls.size();
          auto member = decode_member(m, false, i < any_size.size() && any_size[i], &rule);
          out.cutouts.push_back(member.cutouts);
+         out.texts.push_back(member.texts);
          out.walls.push_back(member.member.wall);
          out.sections.push_back(section_fields(m));
          return member;
@@ -360,10 +361,10 @@ JointSource decode_joint(Reader& in, Targets targets) {
   return out;
 }
 
-Result<JointSource> resolve(JointSource source, const std::stop_token& stop) {
+Result<JointSource> resolve(JointSource source) {
   if (!source.node) return source;
   const auto& asked = *source.node;
-  TRY(source.found, under("node", joint::joint_at(asked.node, asked.member, asked.end, stop)));
+  TRY(source.found, under("node", joint::joint_at(asked.node, asked.member, asked.end)));
   source.target = source.found.target;
   source.partners = source.found.partners;
   source.stated = source.found.stated;

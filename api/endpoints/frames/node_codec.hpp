@@ -2,7 +2,6 @@
 
 #include <map>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -26,7 +25,7 @@ struct NamedMembers {
   std::vector<joint::Member> members;
   std::vector<double> walls;  // as they are given: of one out of range its member has another
   std::vector<Json::Object> sections;  // of those that are not round: its fields as they are given
-  std::vector<Json> cutouts;           // of each, with their defaults; null without
+  std::vector<Json> cutouts, texts;    // of each, with their defaults; null without
   MemberIds ids;
 };
 /// If a member is out of range, it has no issue unless all are, because its part reports the error.
@@ -73,7 +72,7 @@ enum class Targets { round, any };
 /// Finds target and partners of a node's end.
 ///
 /// Errors  those of joint::joint_at, naming node/...
-[[nodiscard]] Result<JointSource> resolve(JointSource source, const std::stop_token& stop);
+[[nodiscard]] Result<JointSource> resolve(JointSource source);
 
 /// The same issue or warning, naming the node's members instead of target and cutters.
 [[nodiscard]] Error on_node(const JointSource& source, Error error);

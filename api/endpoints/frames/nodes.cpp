@@ -159,18 +159,18 @@ struct Nodes {
     return out;
   }
 
-  static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
-    TRY(spec.solved, joint::solve(spec.node, stop));
+  static Result<Spec> resolve(Spec spec) {
+    TRY(spec.solved, joint::solve(spec.node));
     return spec;
   }
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop, const Turns& turns) {
+  static Result<Out> compute(const Spec& spec, const Turns& turns) {
     Out out;
-    TRY(out.overlaps, joint::overlaps(spec.node, spec.solved, {}, stop));
+    TRY(out.overlaps, joint::overlaps(spec.node, spec.solved, {}));
     if (spec.profiles) {
-      TRY(out.profiles, joint::profiles(spec.node, spec.solved, spec.sampling, stop));
+      TRY(out.profiles, joint::profiles(spec.node, spec.solved, spec.sampling));
     }
     if (!spec.tables) return out;
-    auto tables = bevel::end_tables(spec.node, spec.solved, *spec.tables, stop, turns);
+    auto tables = bevel::end_tables(spec.node, spec.solved, *spec.tables, turns);
     if (!tables) return tl::unexpected(in_tables(tables.error()));
     out.tables = *std::move(tables);
     return out;
@@ -183,9 +183,8 @@ struct Nodes {
     return error;
   }
 
-  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop,
-                                   const Turns& turns) {
-    auto checks = joint::verify(spec.node, spec.solved, stop);
+  static std::vector<Check> verify(const Spec& spec, const Out& out, const Turns& turns) {
+    auto checks = joint::verify(spec.node, spec.solved);
     for (std::size_t i = 0; i < out.profiles.size(); ++i)
       if (out.profiles[i]) {
         const auto joint = joint::joint_of(spec.node, spec.solved.ends[i]);
@@ -193,14 +192,14 @@ struct Nodes {
                                                                  .partners = joint::seats(joint),
                                                                  .surfaces = joint::Surfaces::both,
                                                                  .sampling = spec.sampling},
-                                         joint.section, *out.profiles[i], stop));
+                                         joint.section, *out.profiles[i]));
       }
     std::vector<std::vector<Check>> of_tables(out.tables.size());
     turns(of_tables.size(), [&](std::size_t i) {
       const auto& end = out.tables[i];
-      if (end && end->table) of_tables[i] = bevel::verify(end->spec, *end->table, stop);
+      if (end && end->table) of_tables[i] = bevel::verify(end->spec, *end->table);
       if (end && end->of_section)
-        of_tables[i] = bevel::verify(*end->section, end->spec, *end->of_section, stop);
+        of_tables[i] = bevel::verify(*end->section, end->spec, *end->of_section);
     });
     for (const auto& table : of_tables) keep_worst(checks, table);
     return checks;

@@ -299,11 +299,9 @@ struct FeedCurves {
     return out;
   }
 
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    return cutoff::feed_curve(spec, stop);
-  }
-  static std::vector<Check> verify(const Spec& spec, const Out& out, const std::stop_token& stop) {
-    return cutoff::verify(spec, out, stop);
+  static Result<Out> compute(const Spec& spec) { return cutoff::feed_curve(spec); }
+  static std::vector<Check> verify(const Spec& spec, const Out& out) {
+    return cutoff::verify(spec, out);
   }
   static std::vector<Warning> warnings(const Spec&, const Out& out) { return out.warnings; }
   static std::vector<Measure> measure(const Spec&, const Out&) { return {}; }

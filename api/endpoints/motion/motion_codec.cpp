@@ -193,7 +193,6 @@ Result<motion::AxisColumns> columns_of(const groove::MillPathSpec& spec,
 
 struct CutOf {
   const ScheduleRequest& request;
-  const std::stop_token& stop;
   ScheduleJob& job;
 
   /// A schedule has one pass of every cut, of an end with a land the bevel's.
@@ -203,29 +202,28 @@ struct CutOf {
                               of + "the bevel's pass leaves its land of " + brief(land) + " mm"});
   }
   Result<motion::Cut> operator()(const BevelTableRequest& asked) const {
-    TRY(const auto spec, under("cut", resolve(asked, stop)));
-    TRY(const auto table, under("cut", on_node(spec.source, bevel::table(spec, stop))));
+    TRY(const auto spec, under("cut", resolve(asked)));
+    TRY(const auto table, under("cut", on_node(spec.source, bevel::table(spec))));
     if (table.inward)
       return fail(
           {.code = ErrorCode::comparison_only, .member = "cut/dihedral", .limit = "weld_side"});
-    job.checks = bevel::verify(spec, table, stop);
+    job.checks = bevel::verify(spec, table);
     job.warnings = under("cut", on_node(spec.source, table.warnings));
     warn_of_land("cut/root_face_mm", {}, spec.root_face);
     return (*this)(contour_of(spec, table));
   }
   Result<motion::Cut> operator()(const SectionCutRequest& asked) const {
-    TRY(const auto spec, under("cut", resolve(asked.table, stop)));
+    TRY(const auto spec, under("cut", resolve(asked.table)));
     const auto& section = asked.section.section;
-    TRY(const auto table,
-        under("cut", on_node(spec.source, bevel::section_table(section, spec, stop))));
-    job.checks = bevel::verify(section, spec, table, stop);
+    TRY(const auto table, under("cut", on_node(spec.source, bevel::section_table(section, spec))));
+    job.checks = bevel::verify(section, spec, table);
     job.warnings = under("cut", on_node(spec.source, table.warnings));
     warn_of_land("cut/root_face_mm", {}, spec.root_face);
     return (*this)(contour_of(section, table));
   }
   Result<motion::Cut> operator()(const groove::MillPathSpec& spec) const {
-    TRY(const auto path, under("mill_path", groove::mill_path(spec, stop)));
-    job.checks = groove::verify(spec, path, stop);
+    TRY(const auto path, under("mill_path", groove::mill_path(spec)));
+    job.checks = groove::verify(spec, path);
     job.warnings = under("mill_path", path.warnings);
     TRY(auto columns, columns_of(spec, path, request.machine));
     return motion::Cut{std::move(columns)};
@@ -241,8 +239,8 @@ struct CutOf {
     const auto named = [&](Error error) {
       return under("part", on_request(spec, std::move(error)));
     };
-    TRY(const auto part, part::part(spec.part, stop).map_error(named));
-    job.checks = part::verify(spec.part, part, stop);
+    TRY(const auto part, part::part(spec.part).map_error(named));
+    job.checks = part::verify(spec.part, part);
     auto warnings = on_request(spec, part.warnings);
     warnings.insert(warnings.end(), spec.warnings.begin(), spec.warnings.end());
     job.warnings = under("part", std::move(warnings));
@@ -343,10 +341,10 @@ ScheduleRequest decode_schedule_request(Reader& in) {
   return out;
 }
 
-Result<ScheduleRequest> resolve(ScheduleRequest request, const std::stop_token& stop) {
+Result<ScheduleRequest> resolve(ScheduleRequest request) {
   auto* const part = std::get_if<PartRequest>(&request.cut);
   if (part == nullptr) return request;
-  TRY(auto resolved, under("part", resolve(std::move(*part), stop)));
+  TRY(auto resolved, under("part", resolve(std::move(*part))));
   for (const auto& hole : resolved.part.holes)
     if (hole.hole.tilt == bevel::Tilt::free)
       return fail({.code = ErrorCode::unsupported_combination,
@@ -366,13 +364,12 @@ Result<ScheduleRequest> resolve(ScheduleRequest request, const std::stop_token& 
   return request;
 }
 
-Result<ScheduleJob> compute_schedule_job(const ScheduleRequest& request,
-                                         const std::stop_token& stop) {
+Result<ScheduleJob> compute_schedule_job(const ScheduleRequest& request) {
   ScheduleJob out;
   out.spec.machine = request.machine;
   out.spec.motion = request.motion;
   out.spec.max_periods = request.max_periods;
-  TRY(auto cut, std::visit(CutOf{request, stop, out}, request.cut));
+  TRY(auto cut, std::visit(CutOf{request, out}, request.cut));
   out.spec.cut = std::move(cut);
   return out;
 }

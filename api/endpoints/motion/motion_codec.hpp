@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <variant>
 #include <vector>
 
@@ -46,13 +45,12 @@ struct ScheduleJob {
 ///
 /// Errors  those of the part, with members under `part`; unsupported_combination (a hole whose
 ///         torch tilts across).
-[[nodiscard]] Result<ScheduleRequest> resolve(ScheduleRequest request, const std::stop_token& stop);
+[[nodiscard]] Result<ScheduleRequest> resolve(ScheduleRequest request);
 
 /// Of a resolved request.
 ///
 /// Errors  those of the nested request, their members under `cut`, `mill_path` or `part`;
 ///         unsupported_combination.
-[[nodiscard]] Result<ScheduleJob> compute_schedule_job(const ScheduleRequest& request,
-                                                       const std::stop_token& stop);
+[[nodiscard]] Result<ScheduleJob> compute_schedule_job(const ScheduleRequest& request);
 
 }  // namespace tubecut::api

@@ -73,23 +73,21 @@ struct PulseSchedules {
 
   static Spec decode(Reader& in) { return decode_schedule_request(in); }
 
-  static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
-    return api::resolve(std::move(spec), stop);
-  }
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    TRY(auto job, compute_schedule_job(spec, stop));
+  static Result<Spec> resolve(Spec spec) { return api::resolve(std::move(spec)); }
+  static Result<Out> compute(const Spec& spec) {
+    TRY(auto job, compute_schedule_job(spec));
     if (job.program) {
-      TRY(auto program, torch::schedule(*job.program, stop));
+      TRY(auto program, torch::schedule(*job.program));
       return Out{.job = std::move(job), .program = std::move(program)};
     }
-    TRY(auto schedule, motion::schedule(job.spec, stop));
+    TRY(auto schedule, motion::schedule(job.spec));
     return Out{.job = std::move(job), .schedule = std::move(schedule)};
   }
 
-  static std::vector<Check> verify(const Spec&, const Out& out, const std::stop_token& stop) {
+  static std::vector<Check> verify(const Spec&, const Out& out) {
     auto checks = out.job.checks;
-    auto own = out.program ? torch::verify(*out.job.program, *out.program, stop)
-                           : motion::verify(out.job.spec, out.schedule, stop);
+    auto own = out.program ? torch::verify(*out.job.program, *out.program)
+                           : motion::verify(out.job.spec, out.schedule);
     std::ranges::move(own, std::back_inserter(checks));
     return checks;
   }

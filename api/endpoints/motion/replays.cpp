@@ -78,17 +78,16 @@ constexpr std::string_view kBlindSpot =
 constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kSeenFrom{
     {{"off_path_mm", "I10"}, {"b_deg", "I12"}}};
 
-Result<motion::Replay> replayed(const Schedule& s, ScheduleJob& job, const std::stop_token& stop) {
+Result<motion::Replay> replayed(const Schedule& s, ScheduleJob& job) {
   if (job.program)
     return torch::replay({.job = *std::move(job.program),
                           .period = s.period,
                           .counts = s.counts,
                           .start = s.start,
                           .segments = s.segments,
-                          .events = s.events},
-                         stop);
+                          .events = s.events});
   return motion::replay(
-      {.job = std::move(job.spec), .period = s.period, .counts = s.counts, .start = s.start}, stop);
+      {.job = std::move(job.spec), .period = s.period, .counts = s.counts, .start = s.start});
 }
 
 struct Replays {
@@ -120,13 +119,13 @@ struct Replays {
     return out;
   }
 
-  static Result<Spec> resolve(Spec spec, const std::stop_token& stop) {
-    TRY(spec.job, api::resolve(std::move(spec.job), stop));
+  static Result<Spec> resolve(Spec spec) {
+    TRY(spec.job, api::resolve(std::move(spec.job)));
     return spec;
   }
-  static Result<Out> compute(const Spec& spec, const std::stop_token& stop) {
-    TRY(auto job, compute_schedule_job(spec.job, stop));
-    TRY(auto replay, replayed(spec.schedule, job, stop));
+  static Result<Out> compute(const Spec& spec) {
+    TRY(auto job, compute_schedule_job(spec.job));
+    TRY(auto replay, replayed(spec.schedule, job));
     Out out{std::move(replay), std::move(job.checks), std::move(job.warnings)};
     for (const auto& invariant : out.replay.invariants)
       if (!invariant.passed())

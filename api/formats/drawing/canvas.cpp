@@ -34,8 +34,10 @@ double text_width(std::string_view text, double height, bool bold) {
 }
 
 Lettering fitted(std::string_view text, Lettering l, double room) {
+  constexpr double kInside = 1.0 - 1e-9;  // else rounding makes the reduced text too wide again
   const double width = text_width(text, l.height, l.bold);
-  if (width > room) l.height = std::max(std::min(kLeastText, l.height), l.height * room / width);
+  if (width > room)
+    l.height = std::max(std::min(kLeastText, l.height), kInside * l.height * room / width);
   return l;
 }
 
@@ -107,7 +109,7 @@ DrawingBox text_box(DrawingPoint at, std::string_view what, const Lettering& l) 
 }
 
 void Canvas::add(Ink ink) {
-  ask(stop_);
+  ask();
   drawn_.push_back(std::move(ink));
 }
 
@@ -142,9 +144,9 @@ void Canvas::label(DrawingPoint at, std::string_view what, const Lettering& lett
 }
 
 void Canvas::place(const Canvas& other, DrawingPoint by, std::string_view suffix,
-                   const DrawingBox& window, const std::stop_token& stop) {
+                   const DrawingBox& window) {
   for (auto ink : other.drawn_) {
-    ask(stop);
+    ask();
     const double reach = text_width(ink.text, ink.lettering.height, true) + 1.0;
     DrawingPoint low{width_, height_}, high{0.0, 0.0};
     for (auto& p : ink.points) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -75,8 +74,7 @@ struct Ink {
 class Canvas {
  public:
   /// The sheet's size; its origin is the lower left corner. Drawing throws Stopped if cancelled.
-  Canvas(double width, double height, std::stop_token stop = {})
-      : width_(width), height_(height), stop_(std::move(stop)) {}
+  Canvas(double width, double height) : width_(width), height_(height) {}
 
   void line(DrawingPoint a, DrawingPoint b, const Stroke& stroke = {}, std::string_view id = {});
   void polyline(std::vector<DrawingPoint> points, const Stroke& stroke = {},
@@ -89,7 +87,7 @@ class Canvas {
   /// Places another drawing, moved by `by`, its ids with a suffix. Omits everything off this sheet,
   /// and texts that are not wholly within `window` of this sheet.
   void place(const Canvas& other, DrawingPoint by, std::string_view suffix,
-             const DrawingBox& window, const std::stop_token& stop);
+             const DrawingBox& window);
   /// Everything drawn until `end_group` is cut off at the rectangle, or the polygon.
   void begin_clip(DrawingPoint low, DrawingPoint high);
   void begin_clip(std::vector<DrawingPoint> border);
@@ -104,7 +102,6 @@ class Canvas {
 
   double width_;
   double height_;
-  std::stop_token stop_;
   std::vector<Ink> drawn_;
 };
 

@@ -22,13 +22,13 @@ std::vector<Canvas> cut_sheets(const Spec& spec, const Cut& cut, const Caption& 
 template <class Spec, class Cut>
 std::string cut_svg(const Spec& spec, const Cut& cut, const Caption& caption) {
   return print_svg(cut_sheets(spec, cut, caption),
-                   caption.view == "section" ? "Sections" : "Wrap template 1:1", caption.stop);
+                   caption.view == "section" ? "Sections" : "Wrap template 1:1");
 }
 
 template <class Spec, class Cut>
 std::string cut_pdf(const Spec& spec, const Cut& cut, const Caption& caption) {
   return print_pdf(cut_sheets(spec, cut, caption),
-                   caption.view == "section" ? "Sections" : "Wrap template 1:1", caption.stop);
+                   caption.view == "section" ? "Sections" : "Wrap template 1:1");
 }
 
 }  // namespace tubecut::api

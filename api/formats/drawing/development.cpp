@@ -275,7 +275,8 @@ Development developed(const part::SectionPartSpec& spec, const part::SectionPart
   for (std::size_t i = 0; i < part.cutouts.instances.size(); ++i)
     out.cuts.push_back(flat_outline(spec.section, part.cutouts, i, on));
   for (const auto& mark : part.marks)
-    out.marks.push_back({mark.kind, mark.text, mark.s / out.outer_radius, mark.z_from, mark.z_to});
+    out.marks.push_back(
+        {mark.kind, mark.text, mark.s / out.outer_radius, mark.z_from, mark.z_to, mark.lettering});
   out.whole = true;
   out.name = spec.name;
   return out;

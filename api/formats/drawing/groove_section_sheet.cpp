@@ -192,7 +192,7 @@ Canvas all_round(const groove::GrooveSpec& spec, const groove::Joint& joint,
   std::vector<std::vector<std::string>> rows{
       {"section", "height, mm", "groove angle", "filler, mm²", "twist"}};
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    ask(caption.stop);
+    ask();
     const auto room = cell(sheet, kColumns, kRows, static_cast<int>(i));
     draw(sheet.canvas(), drawn[i], placing(room, drawn[i], scale.factor));
     sheet.canvas().text({(room.low.x + room.high.x) / 2.0, room.high.y - 5.0}, name_of(*shown[i]),
@@ -209,11 +209,11 @@ Canvas all_round(const groove::GrooveSpec& spec, const groove::Joint& joint,
 
 Canvas groove_section_sheet(const groove::GrooveSpec& spec, const groove::Groove& groove,
                             const Caption& caption) {
-  const auto joint = groove::joint_of(spec, caption.stop);
-  ask(caption.stop);
+  const auto joint = groove::joint_of(spec);
+  ask();
   if (!caption.options.omega) return all_round(spec, *joint, groove, caption);
-  const auto s = groove::section_at(spec, Angle::deg(*caption.options.omega), caption.stop);
-  ask(caption.stop);
+  const auto s = groove::section_at(spec, Angle::deg(*caption.options.omega));
+  ask();
   if (!s) throw UnfitOption{"omega_deg", "the groove has no section there"};
   return one_section(spec, *joint, *s, caption);
 }

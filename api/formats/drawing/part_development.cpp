@@ -188,7 +188,25 @@ class Stretch {
     canvas_.text(where, tag, {.height = kTagHeight, .anchor = Anchor::middle, .bold = true});
   }
 
+  /// Draws the strokes of a text, again a turn on where it reaches beyond the lower edge.
+  void draw(const cutout::Lettering& text) {
+    const double radius = spec_.target.outer_radius;
+    const double phi = text.s / radius, turn = turned_from(plan_.opened, phi) - phi;
+    for (const auto& stroke : text.strokes)
+      for (const double more : {-kTwoPi, 0.0, kTwoPi}) {
+        std::vector<DrawingPoint> points;
+        bool shown = false;
+        for (const auto& p : stroke) {
+          const double there = p.y() / radius + turn + more;
+          shown = shown || (there >= plan_.opened && there <= plan_.opened + kTwoPi);
+          points.push_back(at(there, p.x()));
+        }
+        if (shown) canvas_.polyline(std::move(points), kMark);
+      }
+  }
+
   void draw(const part::Mark& mark) {
+    if (mark.lettering) return draw(*mark.lettering);
     const double phi = turned_from(plan_.opened, mark.phi);
     const auto where = at(phi, 0.5 * (mark.z_from + mark.z_to));
     if (mark.z_to > mark.z_from) {

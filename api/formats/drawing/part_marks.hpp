@@ -14,4 +14,7 @@ struct Post;
 [[nodiscard]] std::string mark_by_hand(const part::Mark& mark, const Post& post);
 [[nodiscard]] std::string mark_by_hand(const part::SectionMark& mark, const Post& post);
 
+/// Returns "text A1, 7 mm high, turned 30°": a text without its place.
+[[nodiscard]] std::string text_in_words(const cutout::Lettering& text);
+
 }  // namespace tubecut::api

@@ -70,11 +70,11 @@ std::string color(std::string_view name) {
 /// The drawing commands of one sheet, in mm.
 class Content {
  public:
-  Content(const Canvas& canvas, const std::stop_token& stop) {
+  Content(const Canvas& canvas) {
     const auto scale = fixed(kPoint, 6);
     out = scale + " 0 0 " + scale + " 0 0 cm 1 j\n";
     for (const auto& ink : canvas.drawn()) {
-      ask(stop);
+      ask();
       draw(ink);
     }
   }
@@ -149,10 +149,10 @@ class File {
     out_ += body;
     return end();
   }
-  std::size_t add_stream(std::string_view content, const std::stop_token& stop) {
+  std::size_t add_stream(std::string_view content) {
     begin();
     out_ += "<< /Length " + std::to_string(content.size()) + " >>\nstream\n";
-    append(out_, content, stop);
+    out_ += content;
     out_ += "endstream";
     return end();
   }
@@ -190,8 +190,7 @@ std::string font(std::string_view name) {
 
 }  // namespace
 
-std::string print_pdf(const std::vector<Canvas>& sheets, std::string_view title,
-                      const std::stop_token& stop) {
+std::string print_pdf(const std::vector<Canvas>& sheets, std::string_view title) {
   File file;
   const auto plain = file.add(font("Helvetica")), bold = file.add(font("Helvetica-Bold"));
   const auto info = file.add("<< /Title " + literal(title) + " /Producer " +
@@ -199,7 +198,7 @@ std::string print_pdf(const std::vector<Canvas>& sheets, std::string_view title,
   const auto parent = std::to_string(info + 1 + 2 * sheets.size()) + " 0 R";  // the last but one
   std::string kids;
   for (const auto& sheet : sheets) {
-    const auto content = file.add_stream(Content(sheet, stop).out, stop);
+    const auto content = file.add_stream(Content(sheet).out);
     const auto page =
         file.add("<< /Type /Page /Parent " + parent + " /MediaBox [0 0 " +
                  fixed(sheet.width() * kPoint, 3) + " " + fixed(sheet.height() * kPoint, 3) +

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +11,6 @@ namespace tubecut::api {
 /// Sheets as the pages of one PDF 1.4 at full size, in the fonts that every reader has, Helvetica
 /// and Helvetica-Bold. No date, no compression: the same drawing gives the same bytes. Throws
 /// Unspellable if a text has letters that neither they nor ASCII can spell.
-[[nodiscard]] std::string print_pdf(const std::vector<Canvas>& sheets, std::string_view title,
-                                    const std::stop_token& stop);
+[[nodiscard]] std::string print_pdf(const std::vector<Canvas>& sheets, std::string_view title);
 
 }  // namespace tubecut::api

@@ -64,7 +64,7 @@ class Pairs {
 
  private:
   void write_pair(Writer& w, const TorchCutPlaces& cut, std::size_t i) const {
-    ask(caption_.stop);
+    ask();
     const auto& at = cut.places[i];
     const auto inner = inner_place(reach_, at);
     if (!inner)
@@ -125,7 +125,7 @@ void write_process(Writer& w, const FormatOptions& o) {
 std::string print_point_pairs(const TorchJob& job, const std::vector<TorchCutPlaces>& cuts,
                               const Straightness& moves, const Caption& caption) {
   const Pairs pairs(job, caption);
-  Writer out(1 << 16, caption.stop);
+  Writer out(1 << 16);
   out.object([&](Writer& w) {
     w.field("post", post_of(caption.options).name);
     write_provenance(caption, w);

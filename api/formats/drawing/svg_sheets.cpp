@@ -25,11 +25,10 @@ std::string look(const Stroke& s) {
 
 class SvgPrinter {
  public:
-  explicit SvgPrinter(const std::stop_token& stop) : stop_(stop) {}
   void sheet(const Canvas& canvas, double top) {
     top_ = top + canvas.height();
     for (const auto& ink : canvas.drawn()) {
-      ask(stop_);
+      ask();
       draw(ink);
     }
   }
@@ -41,7 +40,7 @@ class SvgPrinter {
   [[nodiscard]] std::string place(DrawingPoint p) const { return x(p) + "," + y(p); }
   [[nodiscard]] std::string places(const std::vector<DrawingPoint>& points) const {
     std::string all;
-    for (const auto& p : points) append(all, place(p) + " ", stop_);
+    for (const auto& p : points) all += place(p) + " ";
     return all;
   }
 
@@ -53,7 +52,7 @@ class SvgPrinter {
       case Ink::Kind::polygon:
         out += std::string(ink.kind == Ink::Kind::polygon ? "<polygon" : "<polyline") +
                named(ink.id) + look(ink.stroke) + " stroke-linejoin=\"round\"";
-        append(out, attribute("points", places(ink.points)), stop_);
+        out += attribute("points", places(ink.points));
         out += "/>\n";
         return;
       case Ink::Kind::rectangle:
@@ -96,22 +95,20 @@ class SvgPrinter {
     out += ">" + xml_text(ink.text) + "</text>\n";
   }
 
-  const std::stop_token& stop_;
   double top_ = 0.0;
   int clips_ = 0;
 };
 
 }  // namespace
 
-std::string print_svg(const std::vector<Canvas>& sheets, std::string_view title,
-                      const std::stop_token& stop) {
+std::string print_svg(const std::vector<Canvas>& sheets, std::string_view title) {
   double width = 0.0, height = 0.0;
   for (const auto& sheet : sheets) {
     width = std::max(width, sheet.width());
     height += sheet.height();
   }
   const auto w = fixed(width, 3), h = fixed(height, 3);
-  SvgPrinter printer(stop);
+  SvgPrinter printer;
   printer.out =
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "mm\" height=\"" + h +
       "mm\" viewBox=\"0 0 " + w + " " + h +

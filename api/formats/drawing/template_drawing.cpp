@@ -165,10 +165,10 @@ class Drawing {
 
   void curve(const CylinderCurve& c, bool around, const Stroke& stroke, const std::string& id) {
     if (c.empty()) return;
-    ask(caption_.stop);
+    ask();
     bool again = false;
     for (auto& points : copies_on(field_, c, !around && d_.around())) {
-      ask(caption_.stop);
+      ask();
       out_.cuts.polyline(points, stroke, {}, !around);
       out_.all.polyline(std::move(points), stroke, again ? id + "-again" : id, !around);
       again = true;
@@ -180,8 +180,21 @@ class Drawing {
     curve(cut.torch, cut.around, kTorchLine, "torch" + number);
     curve(cut.outer, cut.around, kOuterEdge, "cut-outer" + number);
   }
+  /// Draws the strokes of a text, again a turn on where it reaches beyond the seam.
+  void draw(const cutout::Lettering& text) {
+    for (const auto& stroke : text.strokes) {
+      CylinderCurve curve{.radius = d_.outer_radius};
+      for (const auto& p : stroke) {
+        curve.phi.push_back(p.y() / d_.outer_radius);
+        curve.z.push_back(p.x());
+      }
+      for (auto& points : copies_on(field_, curve, true))
+        out_.all.polyline(std::move(points), kMark);
+    }
+  }
   void draw(const part::Mark& mark) {
     if (mark.kind == part::Mark::Kind::datum_line) return;
+    if (mark.lettering) return draw(*mark.lettering);
     const double phi = mark.phi - kTwoPi * std::floor(mark.phi / kTwoPi);
     constexpr double kArm = 3.0;
     const auto from = at(x_of(phi), mark.z_from), to = at(x_of(phi), mark.z_to);

@@ -167,7 +167,7 @@ TemplateLabels::TemplateLabels(const Development& development, const TemplateFie
       holes_(field.width()) {
   bool finish = false;  // of a part the second cut round it
   for (const auto& cut : development.cuts) {
-    ask(caption.stop);
+    ask();
     auto& line = cut.around ? finish ? finish_ : start_ : holes_;
     for (const auto* curve : {&cut.outer, &cut.inner, &cut.torch})
       for (const auto& points : copies_on(field, *curve, !cut.around && development.around()))
@@ -209,7 +209,7 @@ void TemplateLabels::write_hole(Writing& w, const Hole& hole) const {
   const Lettering scrap{.height = 2.4, .anchor = Anchor::middle, .bold = true, .color = kSide};
   bool named = hole.label.empty();
   for (const auto& outline : hole.outlines) {
-    ask(caption_.stop);
+    ask();
     auto line = outline;
     for (auto& p : line) p = {p.x + w.by.x, p.y + w.by.y};
     const auto box = bounds(line), seen = common(box, w.room);
@@ -250,7 +250,7 @@ void TemplateLabels::write_hole(Writing& w, const Hole& hole) const {
 }
 
 void TemplateLabels::write_mark(Writing& w, const part::Mark& mark) const {
-  if (mark.kind == part::Mark::Kind::datum_line) return;
+  if (mark.kind == part::Mark::Kind::datum_line || mark.lettering) return;
   const double phi = mark.phi - kTwoPi * std::floor(mark.phi / kTwoPi);
   const auto from = field_.at(field_.radius * phi, mark.z_from);
   const DrawingPoint at{from.x + w.by.x, from.y + w.by.y};

@@ -81,8 +81,8 @@ struct Tile {
 class Tiles {
  public:
   Tiles(const TemplateDrawing& drawing, const TemplateLabels& labels, const Grid& grid,
-        const TileWords& words, const std::stop_token& stop)
-      : drawing_(drawing.all), labels_(labels), grid_(grid), words_(words), stop_(stop) {
+        const TileWords& words)
+      : drawing_(drawing.all), labels_(labels), grid_(grid), words_(words) {
     for (int row = 0; row < grid.rows; ++row)
       for (int column = 0; column < grid.columns; ++column)
         if (const auto window = window_of(column, row); holds(drawing.cuts, window))
@@ -103,7 +103,7 @@ class Tiles {
   }
   [[nodiscard]] bool holds(const Canvas& cuts, const DrawingBox& window) const {
     return std::ranges::any_of(cuts.drawn(), [&](const Ink& ink) {
-      ask(stop_);
+      ask();
       for (std::size_t i = 0; i + 1 < ink.points.size(); ++i)
         if (meets(window, ink.points[i], ink.points[i + 1])) return true;
       return false;
@@ -117,7 +117,7 @@ class Tiles {
     const DrawingPoint high{low.x + grid_.window_w, low.y + grid_.window_h};
     const DrawingPoint by{low.x - tile.window.low.x, low.y - tile.window.low.y};
     sheet.begin_clip(low, high);
-    sheet.place(drawing_, by, "-" + std::to_string(k + 1), {low, high}, stop_);
+    sheet.place(drawing_, by, "-" + std::to_string(k + 1), {low, high});
     sheet.end_group();
     glue(sheet, tile, low, high);
     labels_.draw(sheet, uncovered(tile), by);
@@ -214,19 +214,18 @@ class Tiles {
   const TemplateLabels& labels_;
   const Grid& grid_;
   const TileWords& words_;
-  const std::stop_token& stop_;
   std::vector<Tile> tiles_;
 };
 
 }  // namespace
 
 std::vector<Canvas> tiles(const TemplateDrawing& drawing, const TemplateLabels& labels, Paper paper,
-                          const TileWords& words, const std::stop_token& stop) {
+                          const TileWords& words) {
   const auto [small, large] = size_of(paper);
   const auto upright = grid_on(small, large, drawing.all, words),
              across = grid_on(large, small, drawing.all, words);
   const bool turned = across.columns * across.rows < upright.columns * upright.rows;
-  return Tiles(drawing, labels, turned ? across : upright, words, stop).pages();
+  return Tiles(drawing, labels, turned ? across : upright, words).pages();
 }
 
 }  // namespace tubecut::api

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -25,6 +24,6 @@ struct TileWords {
 /// window of page k has the id `window-k`.
 [[nodiscard]] std::vector<Canvas> tiles(const TemplateDrawing& drawing,
                                         const TemplateLabels& labels, Paper paper,
-                                        const TileWords& words, const std::stop_token& stop);
+                                        const TileWords& words);
 
 }  // namespace tubecut::api

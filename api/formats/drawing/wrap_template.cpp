@@ -89,7 +89,7 @@ Canvas one_sheet(const Development& d, const TemplateField& field, const Templat
   const DrawingPoint origin{kMargin, kMargin + kRulerRoom};
   Canvas sheet(width, 2.0 * kMargin + kRulerRoom + std::max(field.height(), kRuler) + kScaleRoom +
                           kLine * (static_cast<double>(lines.size()) + 1.0));
-  sheet.place(drawing.all, origin, {}, {{0.0, 0.0}, {sheet.width(), sheet.height()}}, c.stop);
+  sheet.place(drawing.all, origin, {}, {{0.0, 0.0}, {sheet.width(), sheet.height()}});
   double y = sheet.height() - kMargin;
   const auto of = subject(d, c);
   sheet.label({kMargin, y}, of.empty() ? "Wrap template" : "Wrap template, " + of,
@@ -130,8 +130,7 @@ std::vector<Canvas> wrap_template(const Development& development, const Caption&
   const TemplateLabels labels(development, field, caption, part_of(development, caption));
   if (caption.options.paper == Paper::sheet)
     return {one_sheet(development, field, drawing, labels, caption)};
-  return tiles(drawing, labels, caption.options.paper, tile_words(development, field, caption),
-               caption.stop);
+  return tiles(drawing, labels, caption.options.paper, tile_words(development, field, caption));
 }
 
 }  // namespace tubecut::api

@@ -24,11 +24,10 @@ constexpr double kSteel = 7850.0;  // kg/m3
 /// downwards.
 double up(double radius, double phi) { return radius * (kTwoPi - phi); }
 
-DstvLengths lengths_of(const bevel::TableSpec& spec, const bevel::Table& t,
-                       const std::stop_token& stop) {
+DstvLengths lengths_of(const bevel::TableSpec& spec, const bevel::Table& t) {
   const auto [li, hi] = std::ranges::minmax(t.z_inner);
   const auto [lo, ho] = std::ranges::minmax(t.z_outer);
-  const double far = spec.target.length.value_or(cut_solid(spec, t, Smoothed::after, stop).far);
+  const double far = spec.target.length.value_or(cut_solid(spec, t, Smoothed::after).far);
   const double low = std::min(li, lo);
   const double torch = std::min(std::ranges::min(t.torch_inner), std::ranges::min(t.torch_outer));
   return {.low = low,
@@ -56,12 +55,11 @@ const std::vector<std::string> kFrame{
     "RO = round tube, developed as seen from outside: x to the right, y up",
     "y = outer radius * angle, angle = 360 deg - phi"};
 
-std::string contour(const CutOutline& cut, const DstvLengths& l, double bevel_deg,
-                    const std::stop_token& stop) {
+std::string contour(const CutOutline& cut, const DstvLengths& l, double bevel_deg) {
   const auto& c = cut.outer;
   std::string out = "AK\r\n";
   for (std::size_t i = 0; i < c.phi.size(); ++i) {
-    append(out, dstv_point("v", c.z[i] - l.low, up(c.radius, c.phi[i]), bevel_deg, i == 0), stop);
+    out += dstv_point("v", c.z[i] - l.low, up(c.radius, c.phi[i]), bevel_deg, i == 0);
   }
   const double around = up(c.radius, 0.0), end = l.over_long;
   out += dstv_point("v", end, 0.0, 0.0, false) + dstv_point("v", end, around, 0.0, false);
@@ -82,61 +80,52 @@ std::string sidecar(double phi, double phi_inner, double x, double x_inner, doub
                       dstv_field(b * kDegPerRad, 4) + (a ? dstv_field(*a * kDegPerRad, 4) : ""));
 }
 
-std::string sidecar(const joint::Target& target, const bevel::Table& t, double low,
-                    const std::stop_token& stop) {
+std::string sidecar(const joint::Target& target, const bevel::Table& t, double low) {
   std::string out;
   for (std::size_t i = 0; i < t.phi.size(); ++i) {
-    append(out, sidecar(t.phi[i], t.phi[i], t.z_outer[i] - low, t.z_inner[i] - low, t.b[i], target),
-           stop);
+    out += sidecar(t.phi[i], t.phi[i], t.z_outer[i] - low, t.z_inner[i] - low, t.b[i], target);
   }
   return out;
 }
 
-std::string sidecar(const joint::Target& target, const bevel::Hole& h,
-                    const std::stop_token& stop) {
+std::string sidecar(const joint::Target& target, const bevel::Hole& h) {
   std::string out;
   for (std::size_t i = 0; i < h.phi.size(); ++i) {
-    append(out, sidecar(h.phi[i], h.phi_inner[i], h.z[i], h.z_inner[i], h.b[i], target, h.a[i]),
-           stop);
+    out += sidecar(h.phi[i], h.phi_inner[i], h.z[i], h.z_inner[i], h.b[i], target, h.a[i]);
   }
   return out;
 }
 
 /// The outside with both ends: down the start's cut, and up along the finish's.
 std::string outside(const CutOutline& start, const CutOutline& finish, double start_deg,
-                    double finish_deg, const std::stop_token& stop) {
+                    double finish_deg) {
   std::string out = "AK\r\n";
   const auto& s = start.outer;
   const auto& f = finish.outer;
   for (std::size_t i = 0; i < s.phi.size(); ++i) {
-    append(out,
-           dstv_point("v", s.z[i], up(s.radius, s.phi[i]), i + 1 < s.phi.size() ? start_deg : 0.0,
-                      i == 0),
-           stop);
+    out += dstv_point("v", s.z[i], up(s.radius, s.phi[i]), i + 1 < s.phi.size() ? start_deg : 0.0,
+                      i == 0);
   }
   for (std::size_t i = f.phi.size(); i-- > 0;) {
-    append(out, dstv_point("v", f.z[i], up(f.radius, f.phi[i]), i > 0 ? finish_deg : 0.0, false),
-           stop);
+    out += dstv_point("v", f.z[i], up(f.radius, f.phi[i]), i > 0 ? finish_deg : 0.0, false);
   }
   return out + dstv_point("v", s.z.front(), up(s.radius, 0.0), 0.0, false);  // closed
 }
 
-std::string opening(const CutOutline& hole, double bevel_deg, const std::stop_token& stop) {
+std::string opening(const CutOutline& hole, double bevel_deg) {
   const auto& c = hole.outer;
   std::string out = "IK\r\n";
   for (std::size_t i = 0; i <= c.phi.size(); ++i) {
     const auto k = i % c.phi.size();
-    append(
-        out,
-        dstv_point("v", c.z[k], up(c.radius, c.phi[k]), i < c.phi.size() ? bevel_deg : 0.0, i == 0),
-        stop);
+    out +=
+        dstv_point("v", c.z[k], up(c.radius, c.phi[k]), i < c.phi.size() ? bevel_deg : 0.0, i == 0);
   }
   return out;
 }
 
 /// A circle that goes straight through as a bore where a drill makes it; else its outer edge.
 std::string cutout_block(const part::PartSpec& spec, const part::Part& part, std::size_t index,
-                         const CutOutline& cut, const std::stop_token& stop) {
+                         const CutOutline& cut) {
   const auto& one = part.cutouts.instances[index];
   const auto& mould = part.cutouts.mould_of(one);
   const auto& asked = spec.cutouts.all[one.asked];
@@ -144,7 +133,7 @@ std::string cutout_block(const part::PartSpec& spec, const part::Part& part, std
   const double anchor = up(spec.target.outer_radius, turned_from(0.0, one.phi));
   if (!mould.laying.far()) out += dstv_shape(asked, one.z, anchor);
   const auto diameter = dstv_bore_diameter(asked);
-  if (!diameter || asked.wall == cutout::Wall::developed) return out + opening(cut, 0.0, stop);
+  if (!diameter || asked.wall == cutout::Wall::developed) return out + opening(cut, 0.0);
   const double middle = turned_from(0.0, one.phi + mould.laying.phase(0.0));
   return out + dstv_bore("v", one.z, up(spec.target.outer_radius, middle), *diameter);
 }
@@ -153,12 +142,12 @@ std::string cutout_block(const part::PartSpec& spec, const part::Part& part, std
 
 std::string print_dstv(const bevel::TableSpec& spec, const bevel::Table& t,
                        const Caption& caption) {
-  const auto lengths = lengths_of(spec, t, caption.stop);
+  const auto lengths = lengths_of(spec, t);
   const auto bevel = one_bevel(t.b);
   return "ST\r\n" + dstv_comments(lengths, kFrame, bevel.has_value(), caption) +
          dstv_header(profile_of(spec.target, kSteel), lengths, caption) +
-         contour(developed(spec, t).cuts.front(), lengths, bevel.value_or(0.0), caption.stop) +
-         dstv_comment(kSidecar) + sidecar(spec.target, t, lengths.low, caption.stop) + "EN\r\n";
+         contour(developed(spec, t).cuts.front(), lengths, bevel.value_or(0.0)) +
+         dstv_comment(kSidecar) + sidecar(spec.target, t, lengths.low) + "EN\r\n";
 }
 
 std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
@@ -166,7 +155,7 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
   const auto cuts = developed(spec, part).cuts;
   const auto start = one_bevel(part.start.table.b), finish = one_bevel(part.finish.table.b);
   bool constant = start && finish;
-  std::string openings, tables, marks;
+  std::string openings, texts, tables, marks;
   for (const auto& step : part.sequence) {
     if (step.what == part::Step::What::hole) {
       const auto& hole = part.holes[step.index].hole;
@@ -174,20 +163,25 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
       if (one_bevel(hole.a).value_or(1.0) != 0.0) bevel.reset();  // tilted across too
       constant = constant && bevel;
       const auto& cut = cuts[2 + step.index];
-      append(openings, opening(cut, bevel.value_or(0.0), caption.stop), caption.stop);
+      openings += opening(cut, bevel.value_or(0.0));
       tables +=
           dstv_comment(cut.name + " is " + dstv_text(cut.label)) + dstv_comment("cut " + cut.name);
-      append(tables, sidecar(spec.target, hole, caption.stop), caption.stop);
+      tables += sidecar(spec.target, hole);
     } else if (step.what == part::Step::What::cutout) {
       const auto& cut = cuts[2 + part.holes.size() + step.index];
-      append(openings, cutout_block(spec, part, step.index, cut, caption.stop), caption.stop);
+      openings += cutout_block(spec, part, step.index, cut);
     } else if (step.what == part::Step::What::mark) {
-      marks += dstv_comment(dstv_text(mark_by_hand(part.marks[step.index], Post{})));
+      const auto& mark = part.marks[step.index];
+      if (mark.lettering)
+        texts += dstv_lettering(*mark.lettering, "v",
+                                up(spec.target.outer_radius, turned_from(0.0, mark.phi)), true);
+      else
+        marks += dstv_comment(dstv_text(mark_by_hand(mark, Post{})));
     } else {
       const bool at_start = step.what == part::Step::What::start;
       const auto& table = at_start ? part.start.table : part.finish.table;
       tables += dstv_comment(at_start ? "cut start" : "cut finish");
-      append(tables, sidecar(spec.target, table, 0.0, caption.stop), caption.stop);
+      tables += sidecar(spec.target, table, 0.0);
     }
   }
   auto out = "ST\r\n" + dstv_comments(lengths, kFrame, constant, caption) +
@@ -196,14 +190,15 @@ std::string print_dstv(const part::PartSpec& spec, const part::Part& part, const
                   ? ""
                   : dstv_comment(
                         "BO: a bore along the tube's radius, its diameter, depth 0 = this wall")) +
+             (texts.empty() ? "" : dstv_comment(kTextColumns)) +
              dstv_comment("a hole across phi = 0 is one contour: its y leaves the girth") +
              dstv_ends(spec, part) + marks +
              dstv_header(profile_of(spec.target, spec.density), lengths, caption, spec.name);
-  append(out, outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0), caption.stop),
-         caption.stop);
-  append(out, openings, caption.stop);
+  out += outside(cuts[0], cuts[1], start.value_or(0.0), finish.value_or(0.0));
+  out += openings;
+  out += texts;
   out += dstv_comment(kSidecar) + dstv_comment(kTilted);
-  append(out, tables, caption.stop);
+  out += tables;
   return out += "EN\r\n";
 }
 

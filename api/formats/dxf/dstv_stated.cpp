@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "api/formats/dxf/dstv_text.hpp"
+#include "api/formats/text.hpp"
 #include "api/wire/bevel_names.hpp"
 #include "api/wire/cutout_names.hpp"
 #include "core/base/angle.hpp"
@@ -108,6 +109,18 @@ std::string dstv_shape(const cutout::Spec& cutout, double x, double y) {
   if (const auto* drawing = std::get_if<cutout::Contour>(&cutout.shape))
     for (const auto& piece : drawing->pieces) out += dstv_comment(piece_words(piece));
   return out;
+}
+
+std::string dstv_lettering(const cutout::Lettering& text, std::string_view face, double y,
+                           bool up) {
+  const auto& spec = text.spec;
+  const double turn = spec.turn * kDegPerRad;
+  return dstv_comment("text: at x " + stated(text.z) + field("girth", text.s) +
+                      field("angle", turn) + field("height", spec.height) +
+                      (spec.mirrored ? "; mirrored" : "") +
+                      (spec.over_corner ? "; over corner" : "") + "; id " + dstv_text(spec.id)) +
+         "SI\r\n  " + std::string(face) + dstv_field(text.z) + "u" + dstv_field(y) +
+         dstv_field(up ? -turn : turn) + dstv_field(spec.height) + " " + spec.text + "\r\n";
 }
 
 }  // namespace tubecut::api

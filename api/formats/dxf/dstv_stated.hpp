@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "core/cutout/cutout.hpp"
 #include "core/part/part.hpp"
@@ -23,6 +24,13 @@ namespace tubecut::api {
 
 /// Returns the lines of a cut-out's shape, whose anchor lies at x, y of its block.
 [[nodiscard]] std::string dstv_shape(const cutout::Spec& cutout, double x, double y);
+
+inline constexpr const char* kTextColumns =
+    "SI: a text to be marked; x and y where its base line begins, its angle from x to y, height";
+/// Returns the block of a text, with the line that states all of it. `y` of its anchor on the face
+/// and `up`, true if y grows against the girth, are the block's.
+[[nodiscard]] std::string dstv_lettering(const cutout::Lettering& text, std::string_view face,
+                                         double y, bool up);
 
 /// Returns the lines of both ends and of their work points. An end has a line if it is square or
 /// cut by one plane: where the plane meets the axis, and its normal in the part's frame, x to phi 0

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "api/formats/drawing/canvas.hpp"
 #include "api/formats/dxf/dxf_writer.hpp"
@@ -204,6 +205,42 @@ void across(DxfWriter& w, const DxfWriter::Layer& layer, const Development& d, b
     w.polyline(layer, flat(circle), false);
 }
 
+/// A stroke in space: further points keep its chords within kChord of the outside.
+std::vector<Eigen::Vector3d> stroke_in_space(const Development& d, const cutout::Stroke& stroke) {
+  const double bent = 1.0 / (d.section ? d.section->corner : d.outer_radius);
+  const double step = 2.0 * elementary::acos(1.0 - std::min(1.0, kChord * bent)) / bent;  // mm
+  const auto outline = d.section ? std::optional(d.section->outer()) : std::nullopt;
+  std::vector<Eigen::Vector3d> out;
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    const cutout::Flat from = stroke[i == 0 ? 0 : i - 1], way = stroke[i] - from;
+    const bool round = !outline || outline->at(from.y() + 0.5 * way.y()).on_corner;
+    const int parts =
+        round ? std::max(1, static_cast<int>(std::ceil(std::abs(way.y()) / step))) : 1;
+    for (int k = i == 0 ? parts : 1; k <= parts; ++k) {
+      const cutout::Flat p = k == parts ? stroke[i] : from + static_cast<double>(k) / parts * way;
+      if (!outline) {
+        out.push_back(on_wall(d.outer_radius, p.y() / d.outer_radius, p.x()));
+        continue;
+      }
+      const auto at = outline->at(p.y());
+      out.emplace_back(at.point.x(), at.point.y(), p.x());
+    }
+  }
+  return out;
+}
+
+void draw_lettering(DxfWriter& w, const Development& d, const cutout::Lettering& text, bool space) {
+  for (const auto& stroke : text.strokes) {
+    if (space) {
+      w.polyline(kMark, stroke_in_space(d, stroke), false);
+      continue;
+    }
+    std::vector<Eigen::Vector2d> points;
+    for (const auto& p : stroke) points.emplace_back(p.y(), p.x());
+    w.polyline(kMark, points, false);
+  }
+}
+
 /// Returns the phase of a mark, plus full turns if it lies in the contour of a hole that is drawn
 /// there: a hole across the seam is one contour.
 double shown_phi(const Development& d, const part::Mark& mark) {
@@ -226,7 +263,7 @@ std::string print_dxf(const Development& d, const Caption& caption) {
   const double datum = 10.0 * std::ceil((e.z_to + 15.0) / 10.0);
   auto layers = std::vector{kCutOuter, kCutInner, kTorch, kSeam, kDatum, kText};
   if (d.section) layers.push_back(kFace);
-  DxfWriter w(layers, verdict_lines(caption.verdict), caption.stop);
+  DxfWriter w(layers, verdict_lines(caption.verdict));
   draw_cuts(w, d, space);
   seams(w, d, e, datum, space);
   const double left = d.around() || space ? 0.0 : d.outer_radius * e.phi_from - kMargin;
@@ -245,13 +282,17 @@ std::string print_dxf(const Development& d, const std::vector<part::Mark>& marks
                       const Caption& caption) {
   const bool space = caption.view == "tube";
   DxfWriter w({kCutOuter, kCutInner, kTorch, kSeam, kDatum, kText, kMark},
-              verdict_lines(caption.verdict), caption.stop);
+              verdict_lines(caption.verdict));
   draw_cuts(w, d, space);
   const double from = d.cuts[0].outer.z.front(), to = d.cuts[1].outer.z.front();
   along(w, kSeam, d, space, 0.0, from, to);
   if (!space) along(w, kSeam, d, space, kTwoPi, from, to);
   across(w, kDatum, d, space, 0.0);
   for (const auto& mark : marks) {
+    if (mark.lettering) {
+      draw_lettering(w, d, *mark.lettering, space);
+      continue;
+    }
     const double phi = shown_phi(d, mark);
     if (mark.z_to > mark.z_from) {
       along(w, kMark, d, space, phi, mark.z_from, mark.z_to);

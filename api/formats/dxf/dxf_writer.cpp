@@ -131,7 +131,7 @@ void DxfWriter::polyline(const Layer& layer, const std::vector<Eigen::Vector2d>&
                          bool closed) {
   std::vector<Eigen::Vector2d> kept;
   for (const auto& p : points) {
-    ask(stop_);
+    ask();
     if (kept.empty() || (p - kept.back()).norm() > 1e-6) kept.push_back(p);
   }
   if (closed && kept.size() > 1 && (kept.front() - kept.back()).norm() <= 1e-6) kept.pop_back();
@@ -140,7 +140,7 @@ void DxfWriter::polyline(const Layer& layer, const std::vector<Eigen::Vector2d>&
   group(90, static_cast<int>(kept.size()));
   group(70, closed ? 1 : 0);
   for (const auto& p : kept) {
-    ask(stop_);
+    ask();
     group(10, p.x());
     group(20, p.y());
     see({p.x(), p.y(), 0.0});
@@ -162,7 +162,7 @@ void DxfWriter::polyline(const Layer& layer, const std::vector<Eigen::Vector3d>&
     group(8, layer.name);
   };
   for (const auto& p : points) {
-    ask(stop_);
+    ask();
     part("VERTEX");
     group(100, "AcDbVertex");
     group(100, "AcDb3dPolylineVertex");
@@ -207,7 +207,7 @@ std::string DxfWriter::print() const {
   std::size_t size = out.size() + end.size();
   for (const auto& part : entities_) size += part.size();
   out.reserve(size);
-  for (const auto& part : entities_) append(out, part, stop_);
+  for (const auto& part : entities_) out += part;
   out += end;
   return out;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,8 +15,8 @@ class DxfWriter {
     int color;  // AutoCAD colour index
   };
   /// `remarks` go to the file's head.
-  DxfWriter(std::vector<Layer> layers, std::vector<std::string> remarks, std::stop_token stop)
-      : layers_(std::move(layers)), remarks_(std::move(remarks)), stop_(std::move(stop)) {}
+  DxfWriter(std::vector<Layer> layers, std::vector<std::string> remarks)
+      : layers_(std::move(layers)), remarks_(std::move(remarks)) {}
 
   /// Points (x, y); omits those equal to their predecessor.
   void polyline(const Layer& layer, const std::vector<Eigen::Vector2d>& points, bool closed);
@@ -35,7 +34,6 @@ class DxfWriter {
 
   std::vector<Layer> layers_;
   std::vector<std::string> remarks_;
-  std::stop_token stop_;
   std::vector<std::string> entities_ = {""};  // in parts: grown as one it would be moved as one
   int handle_ = 0x100;                        // those below belong to the tables
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();

@@ -62,8 +62,8 @@ std::optional<double> bevel_of(const std::vector<NcPoint>& points) {
 }
 
 /// One face's outline: up along one end, down along the other, closed.
-std::string outline(const section::Curve& outer, const NcFace& face, const part::SectionPart& part,
-                    const std::stop_token& stop) {
+std::string outline(const section::Curve& outer, const NcFace& face,
+                    const part::SectionPart& part) {
   auto start = edge_on(outer, face, part.start.table);
   auto finish = edge_on(outer, face, part.finish.table);
   const double start_b = bevel_of(start).value_or(0.0), finish_b = bevel_of(finish).value_or(0.0);
@@ -83,13 +83,13 @@ std::string outline(const section::Curve& outer, const NcFace& face, const part:
   }
   std::string out = "AK\r\n";
   for (std::size_t i = 0; i < all.size(); ++i)
-    append(out, dstv_point(face.name, all[i].first.x, all[i].first.y, all[i].second, i == 0), stop);
+    out += dstv_point(face.name, all[i].first.x, all[i].first.y, all[i].second, i == 0);
   return out;
 }
 
 /// A circle as a bore; else the edge, run against the outline of its face.
 std::string cutout_block(const part::SectionPartSpec& spec, const part::SectionPart& part,
-                         std::size_t index, const std::stop_token& stop) {
+                         std::size_t index) {
   const auto& layout = part.cutouts;
   const auto& one = layout.instances[index];
   const auto& asked = spec.cutouts.all[one.asked];
@@ -118,25 +118,34 @@ std::string cutout_block(const part::SectionPartSpec& spec, const part::SectionP
   line.push_back(line.front());
   out += "IK\r\n";
   for (std::size_t i = 0; i < line.size(); ++i)
-    append(out, dstv_point(face.name, line[i].x, line[i].y, 0.0, i == 0), stop);
+    out += dstv_point(face.name, line[i].x, line[i].y, 0.0, i == 0);
   return out;
 }
 
-std::string bevels(const part::SectionEnd& end, const char* name, const std::stop_token& stop) {
+std::string text_block(const section::Curve& outer, const cutout::Lettering& text) {
+  const auto& face = *std::ranges::find(kFaces, text.face, &NcFace::face);
+  const auto p = outer.at(text.s).point;
+  const double y =
+      outer.face_distance(face.across_height ? 1 : 2) + (face.across_height ? p.x() : p.y());
+  return dstv_lettering(text, face.name, y, !face.clockwise);
+}
+
+std::string bevels(const part::SectionEnd& end, const char* name) {
   std::string out = dstv_comment(std::string("cut ") + name);
   const auto& t = end.table;
   for (std::size_t i = 0; i < t.at.size(); ++i)
-    append(out,
-           dstv_comment("B" + dstv_field(t.at[i].s, 4) + dstv_field(t.z_outer[i], 4) +
-                        dstv_field(t.z_inner[i], 4) + dstv_field(t.b[i] * kDegPerRad, 4)),
-           stop);
+    out += dstv_comment("B" + dstv_field(t.at[i].s, 4) + dstv_field(t.z_outer[i], 4) +
+                        dstv_field(t.z_inner[i], 4) + dstv_field(t.b[i] * kDegPerRad, 4));
   return out;
 }
 
 DstvProfile profile_of(const part::SectionPartSpec& spec) {
   const auto& s = spec.section;
-  return {.name = (s.height == s.width ? "SHS" : "RHS") + fixed(s.height, 1) + "x" +
-                  fixed(s.width, 1) + "x" + fixed(s.wall, 1),
+  const bool oval = s.height != s.width && 2.0 * s.corner == std::min(s.height, s.width);
+  return {.name = std::string(oval                  ? "OVAL"
+                              : s.height == s.width ? "SHS"
+                                                    : "RHS") +
+                  fixed(s.height, 1) + "x" + fixed(s.width, 1) + "x" + fixed(s.wall, 1),
           .code = "M",
           .height = s.height,
           .width = s.width,
@@ -174,14 +183,18 @@ std::string print_dstv(const part::SectionPartSpec& spec, const part::SectionPar
   for (const auto& face : kFaces) {
     for (const auto* end : {&part.start, &part.finish})
       constant = constant && bevel_of(edge_on(outer, face, end->table)).has_value();
-    append(outlines, outline(outer, face, part, caption.stop), caption.stop);
+    outlines += outline(outer, face, part);
   }
-  std::string marks;
+  std::string marks, texts;
   for (const auto& step : part.sequence)
     if (step.what == part::Step::What::cutout) {
-      append(outlines, cutout_block(spec, part, step.index, caption.stop), caption.stop);
+      outlines += cutout_block(spec, part, step.index);
     } else if (step.what == part::Step::What::mark) {
       const auto& mark = part.marks[step.index];
+      if (mark.lettering) {
+        texts += text_block(outer, *mark.lettering);
+        continue;
+      }
       marks += dstv_comment("mark \"" + dstv_text(mark.text) + "\" on the middle of face 1, x " +
                             fixed(mark.z_from, 3) +
                             (mark.z_to > mark.z_from ? " to " + fixed(mark.z_to, 3) : ""));
@@ -190,16 +203,18 @@ std::string print_dstv(const part::SectionPartSpec& spec, const part::SectionPar
     marks += dstv_comment(
         "BO: a bore square to its face, its diameter, depth 0 = this wall; IK: the edge of an "
         "opening");
+  if (!texts.empty()) marks += dstv_comment(kTextColumns);
   const auto lengths = lengths_of_part(part);
   auto out = "ST\r\n" + dstv_comments(lengths, kFrame, constant, caption) + cut_angles(part) +
              dstv_ends(spec, part) + dstv_corners(spec.section) + marks +
              dstv_header(profile_of(spec), lengths, caption, spec.name);
-  append(out, outlines, caption.stop);
+  out += outlines;
+  out += texts;
   out += dstv_comment(
       "columns of the B lines: girth mm, outer edge x mm, inner edge x mm, bevel "
       "angle deg");
-  append(out, bevels(part.start, "start", caption.stop), caption.stop);
-  append(out, bevels(part.finish, "finish", caption.stop), caption.stop);
+  out += bevels(part.start, "start");
+  out += bevels(part.finish, "finish");
   return out += "EN\r\n";
 }
 

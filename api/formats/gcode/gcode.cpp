@@ -16,7 +16,6 @@
 #include "api/stop.hpp"
 #include "api/wire/motion_names.hpp"
 #include "core/base/elementary.hpp"
-#include "core/base/make_room.hpp"
 #include "core/torch/stretches.hpp"
 #include "core/torch/torch_program.hpp"
 
@@ -49,20 +48,18 @@ torch::Setup setup_of(const FormatOptions& o) {
 
 /// Adds positions if a move of all axes would sag.
 void refine(const motion::CutWithLead& way, bool on_flat, const TorchReach& reach,
-            const std::optional<SectionTurn>& turn, const std::stop_token& stop, Straightness& told,
-            TorchCutPlaces& out) {
+            const std::optional<SectionTurn>& turn, Straightness& told, TorchCutPlaces& out) {
   const auto& points = way.points;
   out.places = {place(points.front(), on_flat)};
   for (std::size_t i = 1; i < points.size(); ++i) {
-    ask(stop);
+    ask();
     auto at = place(points[i - 1], on_flat);
     const auto next_row = place(points[i], on_flat);
-    const auto moves = turn ? turn->moves(reach, at, next_row, kSag, told.sag, stop)
+    const auto moves = turn ? turn->moves(reach, at, next_row, kSag, told.sag)
                             : straight_moves(reach, at, next_row, kSag);
     told.inserted += moves.size() - 1;
     for (const auto& next : moves) {
       if (!turn) told.sag = std::max(told.sag, sag(reach, at, next));
-      tubecut::make_room(out.places, stop);
       out.places.push_back(at = next);
     }
     if (i == way.cut_first) out.cut_first = out.places.size() - 1;
@@ -85,8 +82,14 @@ std::string at_most(const Issue& issue) {
   const bool blocked = issue.code == ErrorCode::lead_blocked;
   const std::string why =
       blocked ? "an arc of " + fixed(torch::kShortestLead, 0) + " mm or more would enter the part"
-              : std::string(info(issue.code).code) + " " + issue.hint;
+      : issue.hint.empty() ? std::string(info(issue.code).meaning)
+                           : issue.hint;
   throw UnfitOption{options.start && !blocked ? "start_deg" : "lead_mm", of + ": " + why};
+}
+
+/// Returns the radius of the leads, or the way from the middle of the scrap onto the cut; mm.
+double lead_of(const torch::TorchWay& way, double outer_radius) {
+  return way.radius > 0.0 ? way.radius : torch::from_edge(way.points, outer_radius);
 }
 
 std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
@@ -99,23 +102,22 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
   const auto turn = job.section ? std::optional<SectionTurn>(*job.section) : std::nullopt;
   std::vector<TorchCutPlaces> out;
   for (const auto& cut : job.cuts) {
-    const auto laid =
-        torch::program_cut(cut, setup_of(o), &cut == &job.cuts.back(), {}, caption.stop);
-    ask(caption.stop);
+    const auto laid = torch::program_cut(cut, setup_of(o), &cut == &job.cuts.back(), {});
+    ask();
     if (!laid) refuse(cut, o, laid.error());
     for (const auto& each : *laid) {
       const auto& way = each.way;
-      if (!cut.mark && way.radius < job.shortest_lead)
+      if (!cut.mark && lead_of(way, job.outer_radius) < job.shortest_lead)
         throw UnfitOption{"lead_mm", (cut.name.empty() ? "the cut" : "cut " + cut.name) +
                                          ": the scrap has no room for the shortest lead of the "
                                          "machine's table, " +
-                                         mm(job.shortest_lead)};
+                                         mm(job.shortest_lead) + "; lead_mm states another"};
       out.push_back({.name = each.cut.name,
                      .places = {},
                      .kerf = cut.kerf,
                      .radius = way.radius,
                      .mark = cut.mark});
-      refine(way.points, cut.on_flat, reach, turn, caption.stop, moves, out.back());
+      refine(way.points, cut.on_flat, reach, turn, moves, out.back());
     }
   }
   return out;
@@ -159,7 +161,7 @@ void print_cut(const TorchJob& job, const TorchCutPlaces& way, const TorchJoints
   const auto& first = way.places.front();
   const double off = o.cut_height.value_or(0.0);
   const double above = way.mark ? off : o.pierce_height.value_or(off);
-  const auto add = [&](std::string_view lines) { append(out, lines, caption.stop); };
+  const auto add = [&](std::string_view lines) { out += lines; };
   const auto rapid = [&](const std::string& words) {
     add(post_line(post.rapid, {{"axes", words}}));
   };
@@ -183,7 +185,7 @@ void print_cut(const TorchJob& job, const TorchCutPlaces& way, const TorchJoints
   };
   if (above != off) go(first, above, first, std::abs(above - off));
   for (std::size_t i = 1; i < way.places.size(); ++i) {
-    ask(caption.stop);
+    ask();
     go(way.places[i - 1], off, way.places[i], way_between(job, way.places[i - 1], way.places[i]));
   }
   add(post_lines(post.cut_end) + post_lines(way.mark ? post.mark_off : post.torch_off));
@@ -266,7 +268,7 @@ const std::vector<std::string_view>& gcode_options() {
 std::string print_gcode(TorchJob job, Caption caption) {
   tell_lands(job, caption.options);
   tell_tabs(job, caption.options);
-  take_process(job, caption.options, caption.stop);
+  take_process(job, caption.options);
   tell_marks(job, caption.options);
   const auto& post = post_of(caption.options);
   Straightness moves;
@@ -279,8 +281,8 @@ std::string print_gcode(TorchJob job, Caption caption) {
   std::string out =
       post_lines(post.begin) + program_header(job, ways, joints, moves, caption) + modes(caption);
   for (const auto& way : ways) print_cut(job, way, joints, caption, out);
-  append(out, retract(joints, post) + post_lines(post.end), caption.stop);
-  return post.numbered(std::move(out), caption.stop);
+  out += retract(joints, post) + post_lines(post.end);
+  return post.numbered(std::move(out));
 }
 
 }  // namespace tubecut::api

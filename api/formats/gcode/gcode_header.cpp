@@ -266,7 +266,10 @@ std::string cut_title(const TorchCutPlaces& cut, const TorchJoints& joints,
         (joints.has_swing() ? joints.swing().shown(cut.start().b * kDegPerRad) + ", " : "") +
         post.length(cut.start().z) + " from " + joints.along().zero());
   if (cut.radius < o.lead.value_or(0.0))
-    out += post.comment("leads of " + post.length(cut.radius) + ": the scrap has no room for more");
+    out += post.comment(
+        cut.radius > 0.0
+            ? "leads of " + post.length(cut.radius) + ": the scrap has no room for more"
+            : "from the middle of the scrap, which has no room for leads along the cut");
   return out;
 }
 

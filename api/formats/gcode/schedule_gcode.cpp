@@ -217,9 +217,8 @@ std::vector<char> axis_letters(const std::vector<motion::AxisPulses>& axes) {
   return out;
 }
 
-std::vector<std::int64_t> move_ends(const motion::Schedule& s, double tolerance,
-                                    const std::stop_token& stop) {
-  Pace pace(stop);
+std::vector<std::int64_t> move_ends(const motion::Schedule& s, double tolerance) {
+  Pace pace;
   std::vector<std::int64_t> out{0};
   Cursor at(s);
   auto before = at.sums();
@@ -265,10 +264,10 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
                     (names.empty() ? "" : lifted(machine, s, letters, post)) +
                     post_line(post.rapid, {{"axes", words(machine, s, post, letters, at.sums())}}) +
                     post_lines(post.cut_begin);
-  const auto add = [&](std::string_view lines) { append(out, lines, caption.stop); };
+  const auto add = [&](std::string_view lines) { out += lines; };
   std::int64_t from = 0;
-  for (const auto end : move_ends(s, kTolerance, caption.stop)) {
-    ask(caption.stop);
+  for (const auto end : move_ends(s, kTolerance)) {
+    ask();
     const auto before = at.sums();
     at.advance_to(end);
     const double seconds = s.period * static_cast<double>(end - from);
@@ -284,7 +283,7 @@ std::string print_schedule_gcode(const motion::Machine& machine, const motion::S
       if (event.period == end && contour) add(told(event, names, caption));
   }
   add(post_lines(post.cut_end) + post_lines(post.end));
-  return post.numbered(std::move(out), caption.stop);
+  return post.numbered(std::move(out));
 }
 
 }  // namespace tubecut::api

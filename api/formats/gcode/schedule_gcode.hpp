@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -18,8 +17,7 @@ namespace tubecut::api {
 /// `tolerance` pulses of its counts at every period; the events' are among them. Ascending, from 0
 /// to the last. Cost linear in the counts.
 [[nodiscard]] std::vector<std::int64_t> move_ends(const motion::Schedule& schedule,
-                                                  double tolerance,
-                                                  const std::stop_token& stop = {});
+                                                  double tolerance);
 
 /// Returns a schedule as RS-274 for LinuxCNC: the axes' own values at these periods, each move in
 /// inverse time, so that the control keeps the planned times as well. The torch (of a cut along a

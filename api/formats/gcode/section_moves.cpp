@@ -59,8 +59,8 @@ double SectionTurn::turn_sag(const TorchReach& reach, const TorchPlace& from,
 }
 
 std::vector<TorchPlace> SectionTurn::moves(const TorchReach& reach, const TorchPlace& from,
-                                           const TorchPlace& to, double limit, double& worst,
-                                           const std::stop_token& stop) const {
+                                           const TorchPlace& to, double limit,
+                                           double& worst) const {
   std::vector<double> shares;
   const double low = std::min(from.phi, to.phi), high = std::max(from.phi, to.phi);
   for (const double s : up_.breaks(radius_ * low, radius_ * high))
@@ -77,7 +77,7 @@ std::vector<TorchPlace> SectionTurn::moves(const TorchReach& reach, const TorchP
   for (const double end : shares) {
     std::vector<Rest> todo{{end, 0}};
     while (!todo.empty()) {
-      ask(stop);
+      ask();
       const auto [next_end, halvings] = todo.back();
       const auto next = next_end == 1.0 ? to : between(reach, from, to, next_end);
       const double off = sag(reach, at, next) + turn_sag(reach, at, next);

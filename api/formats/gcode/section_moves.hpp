@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <vector>
 
 #include "api/formats/gcode/torch_moves.hpp"
@@ -32,8 +31,8 @@ class SectionTurn {
   /// Accuracy  the sum of `sag`, and of the turn 1.5 times the most at three places of each move,
   ///           between which its axes are smooth; stops after 16 halvings.
   [[nodiscard]] std::vector<TorchPlace> moves(const TorchReach& reach, const TorchPlace& from,
-                                              const TorchPlace& to, double limit, double& worst,
-                                              const std::stop_token& stop) const;
+                                              const TorchPlace& to, double limit,
+                                              double& worst) const;
 
  private:
   [[nodiscard]] double turn_sag(const TorchReach& reach, const TorchPlace& from,

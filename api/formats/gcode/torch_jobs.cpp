@@ -15,17 +15,16 @@ namespace tubecut::api {
 namespace {
 
 /// Returns the cuts with the passes of their lands, or the reason for the refusal.
-std::vector<torch::TorchCut> in_passes(Result<std::vector<torch::TorchCut>> cuts,
-                                       const Caption& caption) {
-  ask(caption.stop);
+std::vector<torch::TorchCut> in_passes(Result<std::vector<torch::TorchCut>> cuts) {
+  ask();
   if (cuts) return *std::move(cuts);
   const auto& issue = cuts.error().issues.front();
   throw UnfitOption{"passes", std::string(info(issue.code).code) + " " + issue.hint};
 }
 
 /// Adds the strokes of a part's marks before its cuts, and the marks that remain manual work.
-void add_marks(const part::PartSpec& spec, const part::Part& part, const FormatOptions& o,
-               TorchJob& job) {
+template <class Spec, class Part>
+void add_marks(const Spec& spec, const Part& part, const FormatOptions& o, TorchJob& job) {
   for (const auto& step : part.sequence) {
     if (step.what != part::Step::What::mark) continue;
     const auto& mark = part.marks[step.index];
@@ -53,13 +52,12 @@ void refuse_on_section(const FormatOptions& o) {
   const auto refuse = [](bool is, std::string_view option) {
     if (is)
       throw UnfitOption{option,
-                        "a target that is not round is cut in one pass, without tabs or marks, "
-                        "from a flat or its first point"};
+                        "a target that is not round is cut in one pass, without tabs, from a "
+                        "flat or its first point"};
   };
   refuse(o.passes == Passes::both, "passes");
   refuse(o.tabs.has_value(), "tabs");
   refuse(o.start.has_value(), "start_deg");
-  refuse(o.marks, "marks");
   if (o.process != nullptr) refuse_without_across(o.process->machine);
 }
 
@@ -76,7 +74,7 @@ TorchJob torch_job(const bevel::TableSpec& spec, const bevel::Table& table,
   return {.outer_radius = spec.target.outer_radius,
           .wall = spec.target.wall,
           .cuts = caption.options.passes == Passes::both
-                      ? in_passes(torch::torch_passes(spec, table, caption.stop), caption)
+                      ? in_passes(torch::torch_passes(spec, table))
                       : std::vector{torch::torch_cut(spec, table)},
           .zero = "the work point, z 0",
           .onward = "from the cut into the kept tube",
@@ -111,8 +109,7 @@ TorchJob torch_job(const part::SectionPartSpec& spec, const part::SectionPart& p
                .line = "the middle of face 1, girth 0,",
                .seen_from = "the start"};
   tell_length(part.lengths, caption.options, out);
-  const auto& post = post_of(caption.options);
-  for (const auto& mark : part.marks) out.by_hand.push_back(mark_by_hand(mark, post));
+  add_marks(spec, part, caption.options, out);
   return out;
 }
 
@@ -120,7 +117,7 @@ TorchJob torch_job(const part::PartSpec& spec, const part::Part& part, const Cap
   TorchJob out{.outer_radius = spec.target.outer_radius,
                .wall = spec.target.wall,
                .cuts = caption.options.passes == Passes::both
-                           ? in_passes(torch::torch_passes(spec, part, caption.stop), caption)
+                           ? in_passes(torch::torch_passes(spec, part))
                            : torch::torch_cuts(spec, part),
                .zero = "the long point of the start, z 0",
                .onward = "from the start to the finish",

@@ -14,13 +14,13 @@ namespace tubecut::api {
 namespace {
 
 /// The most that the beam goes through on any of the cuts, mm.
-double thickest(const TorchJob& job, const std::stop_token& stop) {
+double thickest(const TorchJob& job) {
   const TorchReach reach{.outer_radius = job.outer_radius,
                          .inner_radius = job.outer_radius - job.wall};
   double out = 0.0;
   for (const auto& cut : job.cuts)
     for (std::size_t i = 0; !cut.mark && i < cut.path.b.size(); ++i) {
-      ask(stop);
+      ask();
       out = std::max(out, metal_in_beam(reach, {.b = cut.path.b[i],
                                                 .a = cut.path.a.empty() ? 0.0 : cut.path.a[i]}));
     }
@@ -56,14 +56,14 @@ class Taker {
 
 }  // namespace
 
-void take_process(TorchJob& job, FormatOptions& o, const std::stop_token& stop) {
+void take_process(TorchJob& job, FormatOptions& o) {
   if (o.process == nullptr) return;
   const auto& process = *o.process;
   if (!in_ascii(process.machine))
     throw UnfitOption{"machine",
                       "a program is ASCII, and the machine's name has letters that have "
                       "no spelling in it"};
-  const double metal = thickest(job, stop);
+  const double metal = thickest(job);
   const auto& row = row_for(process, metal);
   if (!o.lead) job.shortest_lead = row.lead;
   Taker taker;

@@ -11,6 +11,6 @@ namespace tubecut::api {
 ///
 /// Errors  throws UnfitOption: material, if the metal is thicker than the table; machine, if its
 ///         name has no spelling in a program.
-void take_process(TorchJob& job, FormatOptions& options, const std::stop_token& stop);
+void take_process(TorchJob& job, FormatOptions& options);
 
 }  // namespace tubecut::api

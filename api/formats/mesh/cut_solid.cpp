@@ -57,11 +57,11 @@ Row row(const bevel::TableSpec& spec, const bevel::Table& t, std::size_t i, Smoo
   return out;
 }
 
-double highest(const bevel::TableSpec& spec, const bevel::Table& t, const std::stop_token& stop) {
+double highest(const bevel::TableSpec& spec, const bevel::Table& t) {
   double z = t.z_inner.front();
   for (const auto which : {Smoothed::before, Smoothed::after})
     for (std::size_t i = 0; i < t.phi.size(); ++i) {
-      ask(stop);
+      ask();
       for (const auto& p : row(spec, t, i, which).cut) z = std::max(z, p.y());
     }
   return z;
@@ -100,12 +100,11 @@ std::string stl_header(const Caption& caption) {
   return out;
 }
 
-Mesh coloured(std::string name, const CutSolid& solid, const std::vector<double>& hue,
-              const std::stop_token& stop) {
+Mesh coloured(std::string name, const CutSolid& solid, const std::vector<double>& hue) {
   const Eigen::Vector3f steel(0.62F, 0.65F, 0.68F);
   Mesh out{.name = std::move(name), .positions = {}, .colors = {}, .indices = {}};
   const auto n = solid.rings.size(), across = solid.rings.front().size();
-  Pace pace(stop);
+  Pace pace;
   const auto strip = [&](std::size_t from, std::size_t to, bool cut) {
     const auto base = static_cast<std::uint32_t>(out.positions.size());
     for (std::size_t i = 0; i < n; ++i)
@@ -114,7 +113,7 @@ Mesh coloured(std::string name, const CutSolid& solid, const std::vector<double>
         out.positions.push_back(solid.rings[i][k]);
         out.colors.push_back(cut ? diverging(hue[i]) : steel);
       }
-    for (const auto index : band_triangles(n, 2, stop)) {
+    for (const auto index : band_triangles(n, 2)) {
       pace.turn();
       out.indices.push_back(base + index);
     }
@@ -126,9 +125,9 @@ Mesh coloured(std::string name, const CutSolid& solid, const std::vector<double>
 }
 
 /// Returns B of a ring from its own points, as a fraction of 60 deg.
-std::vector<double> hues(const CutSolid& solid, const std::stop_token& stop) {
+std::vector<double> hues(const CutSolid& solid) {
   std::vector<double> out;
-  Pace pace(stop);
+  Pace pace;
   for (const auto& r : solid.rings) {
     pace.turn();
     const auto &a = r[solid.cut_points - 2], &b = r[solid.cut_points - 1];
@@ -140,22 +139,19 @@ std::vector<double> hues(const CutSolid& solid, const std::stop_token& stop) {
 
 }  // namespace
 
-double far_end(const bevel::TableSpec& spec, const bevel::Table& table,
-               const std::stop_token& stop) {
-  const double top = highest(spec, table, stop), far = top + spec.target.outer_radius;
+double far_end(const bevel::TableSpec& spec, const bevel::Table& table) {
+  const double top = highest(spec, table), far = top + spec.target.outer_radius;
   const bool ends = spec.target.length && *spec.target.length > top + 1e-3;
   return ends ? std::min(far, *spec.target.length) : far;
 }
 
-CutSolid cut_solid(const bevel::TableSpec& spec, const bevel::Table& t, Smoothed which,
-                   const std::stop_token& stop) {
+CutSolid cut_solid(const bevel::TableSpec& spec, const bevel::Table& t, Smoothed which) {
   const double inner = spec.target.inner_radius(), outer = spec.target.outer_radius;
-  CutSolid out{
-      .rings = {}, .cut_points = t.z_face.empty() ? 2U : 3U, .far = far_end(spec, t, stop)};
+  CutSolid out{.rings = {}, .cut_points = t.z_face.empty() ? 2U : 3U, .far = far_end(spec, t)};
   const double step = 2.0 * elementary::acos(1.0 - std::min(1.0, kFacetError / outer));
   const auto n = t.phi.size();
   for (std::size_t i = 0; i < n; ++i) {
-    ask(stop);
+    ask();
     const auto a = row(spec, t, i, which);
     auto b = row(spec, t, (i + 1) % n, which);
     if (i + 1 == n) b.phi += kTwoPi;
@@ -215,7 +211,7 @@ std::vector<Eigen::Vector3d> ring(const section::Wall& wall, const bevel::TableS
 }  // namespace
 
 CutSolid cut_solid(const section::Section& section, const bevel::TableSpec& spec,
-                   const bevel::SectionTable& t, Smoothed which, const std::stop_token& stop) {
+                   const bevel::SectionTable& t, Smoothed which) {
   const section::Wall wall(section);
   double top = t.z_inner.front();
   for (const auto one : {Smoothed::before, Smoothed::after})
@@ -229,7 +225,7 @@ CutSolid cut_solid(const section::Section& section, const bevel::TableSpec& spec
                .cut_points = t.z_face.empty() ? 2U : 3U,
                .far = ends ? std::min(far, *spec.target.length) : far};
   for (std::size_t i = 0; i < t.at.size(); ++i) {
-    ask(stop);
+    ask();
     const auto next = (i + 1) % t.at.size();
     const auto a = section_row(spec, t, i, which);
     auto b = section_row(spec, t, next, which);
@@ -244,7 +240,7 @@ CutSolid cut_solid(const section::Section& section, const bevel::TableSpec& spec
   return out;
 }
 
-TriangleMesh closed_mesh(const CutSolid& solid, const std::stop_token& stop) {
+TriangleMesh closed_mesh(const CutSolid& solid) {
   TriangleMesh out;
   std::map<Point, std::uint32_t> known;
   const auto n = solid.rings.size(), across = solid.rings.front().size();
@@ -260,7 +256,7 @@ TriangleMesh closed_mesh(const CutSolid& solid, const std::stop_token& stop) {
     if (a != b && b != c && c != a) out.triangles.push_back({a, b, c});
   };
   for (std::size_t i = 0; i < n; ++i) {
-    ask(stop);
+    ask();
     for (std::size_t k = 0; k < across; ++k) {
       const auto a = index(i, k), b = index(i + 1, k), c = index(i, k + 1), d = index(i + 1, k + 1);
       triangle(a, b, c);
@@ -273,15 +269,15 @@ TriangleMesh closed_mesh(const CutSolid& solid, const std::stop_token& stop) {
 std::string print_cut_stl(const bevel::TableSpec& spec, const bevel::Table& table,
                           const Caption& caption) {
   const auto which = caption.view == "before" ? Smoothed::before : Smoothed::after;
-  return print_stl(cut_solid(spec, table, which, caption.stop), caption);
+  return print_stl(cut_solid(spec, table, which), caption);
 }
 
 std::string print_stl(const CutSolid& solid, const Caption& caption) {
-  const auto mesh = closed_mesh(solid, caption.stop);
+  const auto mesh = closed_mesh(solid);
   std::string out = stl_header(caption);
   append_bytes(out, static_cast<std::uint32_t>(mesh.triangles.size()));
   out.reserve(84 + 50 * mesh.triangles.size());
-  Pace pace(caption.stop);
+  Pace pace;
   for (const auto& t : mesh.triangles) {
     pace.turn();
     const auto& [a, b, c] = t;
@@ -297,8 +293,8 @@ std::string print_stl(const CutSolid& solid, const Caption& caption) {
 std::string print_cut_gltf(const bevel::TableSpec& spec, const bevel::Table& table,
                            const Caption& caption) {
   const auto of = [&](Smoothed which) {
-    auto solid = cut_solid(spec, table, which, caption.stop);
-    auto shares = hues(solid, caption.stop);
+    auto solid = cut_solid(spec, table, which);
+    auto shares = hues(solid);
     return ColouredSolid{std::move(solid), std::move(shares)};
   };
   return print_gltf(of(Smoothed::before), of(Smoothed::after), caption);
@@ -308,7 +304,7 @@ std::string print_gltf(const ColouredSolid& before, const ColouredSolid& after,
                        const Caption& caption) {
   std::vector<Mesh> meshes;
   for (const auto& [name, one] : {std::pair{"before", &before}, std::pair{"after", &after}})
-    meshes.push_back(coloured(name, one->solid, one->b_shares, caption.stop));
+    meshes.push_back(coloured(name, one->solid, one->b_shares));
   return print_gltf(meshes, caption);
 }
 

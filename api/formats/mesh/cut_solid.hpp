@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -30,18 +29,16 @@ struct CutSolid {
 
 /// z of the far end: half a diameter above the highest point of the cut, before smoothing or after,
 /// at most the target's length.
-[[nodiscard]] double far_end(const bevel::TableSpec& spec, const bevel::Table& table,
-                             const std::stop_token& stop);
+[[nodiscard]] double far_end(const bevel::TableSpec& spec, const bevel::Table& table);
 
 /// `before`: the cut as it would be unsmoothed, on the same root.
 [[nodiscard]] CutSolid cut_solid(const bevel::TableSpec& spec, const bevel::Table& table,
-                                 Smoothed which, const std::stop_token& stop);
+                                 Smoothed which);
 
 /// The same of a section: a ring stands on each row, and on arcs so many more that facets stay
 /// within kFacetError.
 [[nodiscard]] CutSolid cut_solid(const section::Section& section, const bevel::TableSpec& spec,
-                                 const bevel::SectionTable& table, Smoothed which,
-                                 const std::stop_token& stop);
+                                 const bevel::SectionTable& table, Smoothed which);
 
 /// Triangles of the closed surface, counter-clockwise seen from outside, on single-precision points
 /// (equal ones merged), because STL has no other.
@@ -49,7 +46,7 @@ struct TriangleMesh {
   std::vector<std::array<float, 3>> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
-[[nodiscard]] TriangleMesh closed_mesh(const CutSolid& solid, const std::stop_token& stop);
+[[nodiscard]] TriangleMesh closed_mesh(const CutSolid& solid);
 
 /// Return binary STL and glTF of a solid; see `print_cut_stl` and `print_cut_gltf`. `b_shares`: of
 /// each ring, B as a fraction of 60 deg.

@@ -175,7 +175,7 @@ void chunk_head(std::string& out, std::size_t length, std::uint32_t kind) {
 
 std::string print_gltf(const std::vector<Mesh>& meshes, const Caption& caption) {
   constexpr std::size_t kHead = 12, kChunkHead = 8;
-  Pace pace(caption.stop);
+  Pace pace;
   const auto binary = views(meshes);
   auto json = document(meshes, binary, caption, pace);
   json.resize((json.size() + 3) / 4 * 4, ' ');
@@ -199,11 +199,10 @@ Eigen::Vector3f diverging(double value) {
                   : Eigen::Vector3f((1.0F - t) * grey + t * red);
 }
 
-std::vector<std::uint32_t> band_triangles(std::size_t rings, std::size_t across,
-                                          const std::stop_token& stop) {
+std::vector<std::uint32_t> band_triangles(std::size_t rings, std::size_t across) {
   std::vector<std::uint32_t> out;
   out.reserve(6 * rings * (across - 1));
-  Pace pace(stop);
+  Pace pace;
   for (std::size_t i = 0; i < rings; ++i)
     for (std::size_t k = 0; k + 1 < across; ++k) {
       pace.turn();

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -18,8 +17,7 @@ struct Mesh {
   std::vector<std::uint32_t> indices;   // three a triangle, counter-clockwise seen from outside
   float opacity = 1.0F;
 
-  /// Reserves memory for this number of positions, because moving many as they grow would delay the
-  /// next check of the stop token.
+  /// Reserves memory for this number of positions, because moving many as they grow takes long.
   void reserve(std::size_t count) {
     positions.reserve(count);
     colors.reserve(count);
@@ -34,7 +32,6 @@ struct Mesh {
 [[nodiscard]] Eigen::Vector3f diverging(double value);
 
 /// A closed band of `rings` rows of `across` points each, row by row, as triangles.
-[[nodiscard]] std::vector<std::uint32_t> band_triangles(std::size_t rings, std::size_t across,
-                                                        const std::stop_token& stop);
+[[nodiscard]] std::vector<std::uint32_t> band_triangles(std::size_t rings, std::size_t across);
 
 }  // namespace tubecut::api

@@ -52,15 +52,15 @@ struct Seam {
 
 class Builder {
  public:
-  Builder(double inner, double outer, const std::vector<TubeCut>& cuts, const std::stop_token& stop)
-      : radius_{inner, outer}, cuts_(cuts), stop_(stop) {}
+  Builder(double inner, double outer, const std::vector<TubeCut>& cuts)
+      : radius_{inner, outer}, cuts_(cuts) {}
 
   TubeSolid build() {
     out_.wall = radius_[1] - radius_[0];
-    const auto phi = tube_seams(radius_[0], radius_[1], cuts_, stop_);
+    const auto phi = tube_seams(radius_[0], radius_[1], cuts_);
     for (const std::size_t s : {0U, 1U}) seams_[s].phi = phi[s];
     for (const auto& cut : cuts_) {
-      ask(stop_);
+      ask();
       if (const auto* z = std::get_if<double>(&cut.shape))
         add_plane(cut, *z);
       else
@@ -105,7 +105,6 @@ class Builder {
 
   std::array<double, 2> radius_;
   const std::vector<TubeCut>& cuts_;
-  std::stop_token stop_;
   TubeSolid out_;
   std::array<Seam, 2> seams_;
   struct Border {
@@ -221,7 +220,7 @@ void Builder::add_wall(const TubeCut& cut, const WallCurve& curve) {
                 .piece = {}};
   std::vector<Place> places;
   for (const auto& s : wall.stations) places.push_back(s.place);
-  out_.walls.push_back(curve.spline(places, stop_));
+  out_.walls.push_back(curve.spline(places));
   lay_edges(wall);
   for (std::size_t s = 0; s < wall.stations.size(); ++s)
     for (const auto& [seam, k] : wall.stations[s].met)
@@ -307,7 +306,7 @@ Builder::Regions Builder::regions(std::size_t side) const {
     Region region;
     bool island = true;
     for (auto i = first; !seen[i];) {
-      ask(stop_);
+      ask();
       seen[i] = true;
       region.border.push_back(i);
       const auto& b = borders[i];
@@ -371,9 +370,8 @@ void Builder::add_cylinder(std::size_t side) {
 
 }  // namespace
 
-TubeSolid tube_solid(double inner, double outer, const std::vector<TubeCut>& cuts,
-                     const std::stop_token& stop) {
-  return Builder(inner, outer, cuts, stop).build();
+TubeSolid tube_solid(double inner, double outer, const std::vector<TubeCut>& cuts) {
+  return Builder(inner, outer, cuts).build();
 }
 
 }  // namespace tubecut::api

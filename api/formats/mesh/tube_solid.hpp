@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <utility>
 #include <variant>
@@ -65,7 +64,6 @@ struct TubeSolid {
 
 /// Returns the tube's wall between a start and a finish, without the holes; no two cuts may meet.
 /// Each cylinder is two faces that meet at the same two phases, away from holes if possible.
-[[nodiscard]] TubeSolid tube_solid(double inner, double outer, const std::vector<TubeCut>& cuts,
-                                   const std::stop_token& stop);
+[[nodiscard]] TubeSolid tube_solid(double inner, double outer, const std::vector<TubeCut>& cuts);
 
 }  // namespace tubecut::api

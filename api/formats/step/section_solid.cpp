@@ -43,21 +43,21 @@ class Builder {
     all_seams_.erase(again.begin(), again.end());
   }
 
-  Brep build(const std::stop_token& stop) {
+  Brep build() {
     for (const bool finish : {false, true}) {
-      ask(stop);
+      ask();
       const auto& end = finish ? part_.finish : part_.start;
       const SectionRing ring(wall_, end.spec, end.table, all_seams_);
       add_cut(ring, finish, finish ? cuts_[1] : cuts_[0]);
     }
     const auto& layout = part_.cutouts;
     for (std::size_t i = 0; i < layout.instances.size(); ++i) {
-      ask(stop);
+      ask();
       cutouts_.push_back(
           add_cutout(wall_, layout, layout.instances[i], "cut-out " + cutout_tag(layout, i), out_));
     }
     for (const bool outer : {true, false}) {
-      ask(stop);
+      ask();
       add_wall(outer);
     }
     return std::move(out_);
@@ -304,11 +304,10 @@ class Builder {
 
 }  // namespace
 
-Brep section_solid(const part::SectionPartSpec& spec, const part::SectionPart& part,
-                   const std::stop_token& stop) {
+Brep section_solid(const part::SectionPartSpec& spec, const part::SectionPart& part) {
   if (!(std::min(spec.section.corner, spec.section.inner_corner) >= kLeastRadius))
     throw UnfitOption{"format", "step prints no corner without a radius, outside or of the bore"};
-  return Builder(spec, part).build(stop);
+  return Builder(spec, part).build();
 }
 
 }  // namespace tubecut::api

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <string>
 
 #include "api/formats/step/brep.hpp"
@@ -15,8 +14,7 @@ namespace tubecut::api {
 /// an end that is square to the axis is one plane.
 /// Accuracy  edges within 1e-6 mm of the answer's lines.
 /// Errors  throws UnfitOption if a corner, outside or of the bore, has no radius.
-[[nodiscard]] Brep section_solid(const part::SectionPartSpec& spec, const part::SectionPart& part,
-                                 const std::stop_token& stop);
+[[nodiscard]] Brep section_solid(const part::SectionPartSpec& spec, const part::SectionPart& part);
 
 /// Returns the file's name for a tube of this section: the reference's part takes precedence over
 /// `member`.

@@ -14,8 +14,8 @@ Product product_of(const section::Section& section, const std::string& member,
 
 std::string section_part_step(const part::SectionPartSpec& spec, const part::SectionPart& part,
                               const Caption& caption) {
-  return print_step(section_solid(spec, part, caption.stop),
-                    product_of(spec.section, spec.name, caption), caption);
+  return print_step(section_solid(spec, part), product_of(spec.section, spec.name, caption),
+                    caption);
 }
 
 }  // namespace tubecut::api

@@ -29,7 +29,7 @@ WallCurve curve_of(const bevel::CutWall& wall, std::vector<bool> corners, const 
 TubeCut end_cut(TubeCut::Place place, const bevel::TableSpec& spec, const bevel::Table& table,
                 const Caption& caption) {
   const std::string name(joint::end_name(place == TubeCut::Place::finish));
-  ask(caption.stop);
+  ask();
   const auto wall = bevel::finished_wall(spec, table);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const auto& edge : wall.edges) {
@@ -43,7 +43,7 @@ TubeCut end_cut(TubeCut::Place place, const bevel::TableSpec& spec, const bevel:
 
 TubeCut hole_cut(const joint::Target& tube, const bevel::Hole& hole, std::string name,
                  const Caption& caption) {
-  ask(caption.stop);
+  ask();
   const bevel::CutWall wall{.edges = {{tube.inner_radius(), hole.phi_inner, hole.z_inner},
                                       {tube.outer_radius, hole.phi, hole.z}},
                             .turn = 0.0};
@@ -53,7 +53,7 @@ TubeCut hole_cut(const joint::Target& tube, const bevel::Hole& hole, std::string
 /// A cut-out's mould by close rows, with a corner at every end of its segments.
 WallCurve cutout_curve(const joint::Target& tube, const cutout::Mould& mould, double turn, double z,
                        const Caption& caption) {
-  ask(caption.stop);
+  ask();
   constexpr double kClose = 1e-3, kAtCorner = 1e-9;  // mm
   auto rows = cutout::rows(mould.laying, mould.chain, {.tolerance = kClose}).value();
   std::vector<bool> corners;
@@ -76,7 +76,7 @@ WallCurve cutout_curve(const joint::Target& tube, const cutout::Mould& mould, do
 
 std::string print(const joint::Target& tube, const std::vector<TubeCut>& cuts,
                   const Caption& caption) {
-  return print_step(tube_solid(tube.inner_radius(), tube.outer_radius, cuts, caption.stop),
+  return print_step(tube_solid(tube.inner_radius(), tube.outer_radius, cuts),
                     product_of(tube, {}, caption), caption);
 }
 
@@ -128,7 +128,7 @@ std::string bevel_table_step(const bevel::TableSpec& spec, const bevel::Table& t
                              const Caption& caption) {
   return print(spec.target,
                {end_cut(TubeCut::Place::start, spec, table, caption),
-                {TubeCut::Place::finish, "far end", far_end(spec, table, caption.stop)}},
+                {TubeCut::Place::finish, "far end", far_end(spec, table)}},
                caption);
 }
 
@@ -139,8 +139,7 @@ std::string hole_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < cut.holes.size(); ++i) {
     const auto& hole = cut.holes[i];
-    if (i > 0 && part::holes_meet(tube, cut.holes[0], hole, caption.stop))
-      refuse("the holes of both sides meet");
+    if (i > 0 && part::holes_meet(tube, cut.holes[0], hole)) refuse("the holes of both sides meet");
     for (const auto* z : {&hole.z, &hole.z_inner}) {
       const auto [least, most] = std::ranges::minmax(*z);
       low = std::min(low, least);
@@ -167,7 +166,7 @@ TubeSolid part_solid(const part::PartSpec& spec, const part::Part& part, const C
     if (where == Lies::off_part) continue;
     if (where == Lies::across_a_cut) refuse("a hole reaches into the cut at an end");
     for (const auto* other : kept)
-      if (some_meet && part::holes_meet(tube, *other, hole, caption.stop)) refuse("two holes meet");
+      if (some_meet && part::holes_meet(tube, *other, hole)) refuse("two holes meet");
     kept.push_back(&hole);
     cuts.push_back(hole_cut(tube, hole, "hole " + std::to_string(i), caption));
   }
@@ -177,7 +176,7 @@ TubeSolid part_solid(const part::PartSpec& spec, const part::Part& part, const C
     cuts.push_back({TubeCut::Place::hole, "cut-out " + cutout_tag(layout, i),
                     cutout_curve(tube, layout.mould_of(one), one.phi, one.z, caption)});
   }
-  return tube_solid(tube.inner_radius(), tube.outer_radius, cuts, caption.stop);
+  return tube_solid(tube.inner_radius(), tube.outer_radius, cuts);
 }
 
 std::string part_step(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {

@@ -262,7 +262,7 @@ std::string description(const Caption& caption, std::string_view what) {
 }  // namespace
 
 StepFile::StepFile(double thinnest, const Caption& caption)
-    : caption_(caption), pace_(caption.stop), entities_(digits_for(thinnest)) {}
+    : caption_(caption), pace_(), entities_(digits_for(thinnest)) {}
 
 /// Its definition.
 StepFile::Id StepFile::add_product(const Product& product) {

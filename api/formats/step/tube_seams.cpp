@@ -78,14 +78,13 @@ double badness(double phi, const std::array<double, 2>& radius, const std::vecto
 
 }  // namespace
 
-std::array<double, 2> tube_seams(double inner, double outer, const std::vector<TubeCut>& cuts,
-                                 const std::stop_token& stop) {
+std::array<double, 2> tube_seams(double inner, double outer, const std::vector<TubeCut>& cuts) {
   const auto holes = spreads(cuts);
   const auto along = jumps(cuts);
   std::vector<double> bad;
   const auto phase = [](int i) { return kTwoPi * i / kSeamPhases; };
   for (int i = 0; i < kSeamPhases; ++i) {
-    ask(stop);
+    ask();
     bad.push_back(badness(phase(i), {inner, outer}, holes, along));
   }
   double best = std::numeric_limits<double>::infinity();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <stop_token>
 #include <vector>
 
 #include "api/formats/mesh/tube_solid.hpp"
@@ -12,7 +11,6 @@ namespace tubecut::api {
 /// revolution between them, through as few holes as possible, not along a side of a hole or along a
 /// cut.
 [[nodiscard]] std::array<double, 2> tube_seams(double inner, double outer,
-                                               const std::vector<TubeCut>& cuts,
-                                               const std::stop_token& stop);
+                                               const std::vector<TubeCut>& cuts);
 
 }  // namespace tubecut::api

@@ -314,8 +314,7 @@ std::vector<WallCurve::Place> WallCurve::crossings(std::size_t edge, double phi)
   return out;
 }
 
-std::vector<WallCurve::Node> WallCurve::nodes(const std::vector<Place>& stations,
-                                              const std::stop_token& stop) const {
+std::vector<WallCurve::Node> WallCurve::nodes(const std::vector<Place>& stations) const {
   std::vector<Node> out;
   const double origin = along(stations.front());
   const auto add = [&](const Place& place, bool station, double from) {
@@ -337,7 +336,7 @@ std::vector<WallCurve::Node> WallCurve::nodes(const std::vector<Place>& stations
     return by_station || at > around_ - kKnotDistance;
   };
   for (std::size_t i = 0; i < rows(); ++i) {
-    ask(stop);
+    ask();
     double wide = 0.0;
     for (const auto& edge : edges_) wide = std::max(wide, std::abs(laid_gap(edge, i).x()));
     const int parts = std::max(1, static_cast<int>(std::ceil(wide / edges_.back().widest)));
@@ -357,7 +356,7 @@ std::vector<WallCurve::Node> WallCurve::nodes(const std::vector<Place>& stations
       ++i;
     }
   }
-  ask(stop);
+  ask();
   lay_in_space(out);
   auto last = out.front();
   last.along = around_;

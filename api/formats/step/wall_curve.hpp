@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "api/formats/step/wall_spline.hpp"
@@ -43,8 +42,7 @@ class WallCurve {
   [[nodiscard]] std::vector<Place> crossings(std::size_t edge, double phi) const;
 
   /// `stations`: joints of it, at least one, ascending; it begins at the first.
-  [[nodiscard]] WallSpline spline(const std::vector<Place>& stations,
-                                  const std::stop_token& stop) const;
+  [[nodiscard]] WallSpline spline(const std::vector<Place>& stations) const;
 
  private:
   struct Edge {
@@ -96,13 +94,11 @@ class WallCurve {
   [[nodiscard]] Passing<Eigen::Vector2d> pass(const Edge& edge, const Place& place) const;
   [[nodiscard]] Node node(const Place& place) const;
   void lay_in_space(std::vector<Node>& nodes) const;
-  [[nodiscard]] std::vector<Node> nodes(const std::vector<Place>& stations,
-                                        const std::stop_token& stop) const;
+  [[nodiscard]] std::vector<Node> nodes(const std::vector<Place>& stations) const;
   /// How far round an edge goes from one node to the next, rad.
   [[nodiscard]] double turned(std::size_t edge, const Node& from, const Node& to) const;
   [[nodiscard]] Pair cubics(std::size_t edge, const Node& from, const Node& to) const;
-  [[nodiscard]] std::size_t farthest(const std::vector<Node>& nodes, std::size_t from,
-                                     const std::stop_token& stop) const;
+  [[nodiscard]] std::size_t farthest(const std::vector<Node>& nodes, std::size_t from) const;
   /// Returns the node at a distance along the rows from the first station, which is at `origin`.
   [[nodiscard]] Node node_at(double from_station, double origin) const;
   /// Returns whether the cubics between two nodes stay on their cylinders.
@@ -111,12 +107,9 @@ class WallCurve {
   /// `halvings` times.
   void add_spans(const Node& from, const Node& to, double origin, int halvings,
                  std::vector<Span>& out) const;
-  [[nodiscard]] std::vector<Span> spans(const std::vector<Node>& nodes,
-                                        const std::stop_token& stop) const;
-  [[nodiscard]] static std::vector<Span> graded(std::vector<Span> spans,
-                                                const std::stop_token& stop);
-  [[nodiscard]] bool fits(const std::vector<Node>& nodes, std::size_t from, std::size_t to,
-                          const std::stop_token& stop) const;
+  [[nodiscard]] std::vector<Span> spans(const std::vector<Node>& nodes) const;
+  [[nodiscard]] static std::vector<Span> graded(std::vector<Span> spans);
+  [[nodiscard]] bool fits(const std::vector<Node>& nodes, std::size_t from, std::size_t to) const;
   [[nodiscard]] bool near(const Bezier& curve, const Eigen::Vector3d& point, double u) const;
 
   std::vector<Edge> edges_;

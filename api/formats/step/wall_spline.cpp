@@ -96,8 +96,7 @@ bool WallCurve::near(const Bezier& curve, const Vector3d& point, double u) const
   return d.norm() <= off_rows_;
 }
 
-bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size_t to,
-                     const std::stop_token& stop) const {
+bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size_t to) const {
   const auto &a = nodes[from], &b = nodes[to];
   const double wide = b.along - a.along;
   for (std::size_t k = 0; k < edges_.size(); ++k) {
@@ -111,7 +110,7 @@ bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size
       const auto twin = on_wall(edges_[k].radius, value(both.flat, u));
       if ((p - twin).norm() > *off_flat_) return false;
     }
-    Pace pace(stop);
+    Pace pace;
     for (auto i = from + 1; i < to; ++i) {
       pace.turn();
       const auto& at = nodes[i].edges[k].space.at;
@@ -122,13 +121,12 @@ bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size
 }
 
 /// As far as one span can go: to a corner or a station at most.
-std::size_t WallCurve::farthest(const std::vector<Node>& nodes, std::size_t from,
-                                const std::stop_token& stop) const {
+std::size_t WallCurve::farthest(const std::vector<Node>& nodes, std::size_t from) const {
   std::size_t most = from + 1;
   while (most + 1 < nodes.size() && !nodes[most].corner && !nodes[most].station) ++most;
   std::size_t good = from + 1, bad = most + 1;
   for (std::size_t reach = 2; from + reach <= most; reach *= 2) {
-    if (!fits(nodes, from, from + reach, stop)) {
+    if (!fits(nodes, from, from + reach)) {
       bad = from + reach;
       break;
     }
@@ -136,7 +134,7 @@ std::size_t WallCurve::farthest(const std::vector<Node>& nodes, std::size_t from
   }
   while (bad - good > 1) {
     const auto middle = good + (bad - good) / 2;
-    (fits(nodes, from, middle, stop) ? good : bad) = middle;
+    (fits(nodes, from, middle) ? good : bad) = middle;
   }
   return good;
 }
@@ -174,13 +172,12 @@ void WallCurve::add_spans(const Node& from, const Node& to, double origin, int h
   out.push_back(std::move(one));
 }
 
-std::vector<WallCurve::Span> WallCurve::spans(const std::vector<Node>& nodes,
-                                              const std::stop_token& stop) const {
+std::vector<WallCurve::Span> WallCurve::spans(const std::vector<Node>& nodes) const {
   std::vector<Span> out;
   const double origin = along(nodes.front().place);
   for (std::size_t from = 0; from + 1 < nodes.size();) {
-    ask(stop);
-    const auto to = farthest(nodes, from, stop);
+    ask();
+    const auto to = farthest(nodes, from);
     add_spans(nodes[from], nodes[to], origin, to == from + 1 ? kHalvings : 0, out);
     from = to;
   }
@@ -189,13 +186,12 @@ std::vector<WallCurve::Span> WallCurve::spans(const std::vector<Node>& nodes,
 
 /// Returns the same curve with no span much wider than the adjacent ones, because readers put
 /// curves through points of each span, and such curves swing if a short span follows a long one.
-std::vector<WallCurve::Span> WallCurve::graded(std::vector<Span> spans,
-                                               const std::stop_token& stop) {
+std::vector<WallCurve::Span> WallCurve::graded(std::vector<Span> spans) {
   for (bool changed = true; changed;) {
     changed = false;
     std::vector<Span> out;
     for (std::size_t i = 0; i < spans.size(); ++i) {
-      ask(stop);
+      ask();
       const double before = spans[(i + spans.size() - 1) % spans.size()].wide;
       const double behind = spans[(i + 1) % spans.size()].wide;
       if (spans[i].wide <= kUneven * std::min(before, behind)) {
@@ -218,9 +214,8 @@ std::vector<WallCurve::Span> WallCurve::graded(std::vector<Span> spans,
   return spans;
 }
 
-WallSpline WallCurve::spline(const std::vector<Place>& stations,
-                             const std::stop_token& stop) const {
-  const auto all = graded(spans(nodes(stations, stop), stop), stop);
+WallSpline WallCurve::spline(const std::vector<Place>& stations) const {
+  const auto all = graded(spans(nodes(stations)));
   WallSpline out{.joints = {{}}, .points = {}, .flat = {}, .stations = {0}};
   for (const auto& first : all.front().curves) out.points.push_back({first[0]});
   for (const auto& first : all.front().flats) out.flat.push_back({first[0]});

@@ -120,8 +120,7 @@ class Cells {
 
 /// Passes all cells of the grid, with their figures, to `see`.
 template <class See>
-void see_cells(const Figure& figure, const Grid& grid, const std::stop_token& stop,
-               const See& see) {
+void see_cells(const Figure& figure, const Grid& grid, const See& see) {
   const auto& surface = figure.surface;
   Cells cells(figure, grid, see);
   std::vector<GridLine> lines{{grid.first, 0.0, 0.0, 0.0, 0.0}};
@@ -129,16 +128,16 @@ void see_cells(const Figure& figure, const Grid& grid, const std::stop_token& st
     cells.line_up(lines);
     lines.clear();
   };
-  for (std::size_t i = grid.first; i < grid.end && !stop.stop_requested(); ++i) {
+  for (std::size_t i = grid.first; i < grid.end && !stopped(); ++i) {
     const double step = surface.step(i), wide = surface.across(i, grid.land) / grid.lines;
     const int parts = std::max(1, static_cast<int>(std::ceil(step / grid.apart)));
-    for (int k = 0; k < parts && !stop.stop_requested(); ++k) {
+    for (int k = 0; k < parts && !stopped(); ++k) {
       const double u = static_cast<double>(k) / parts, u1 = static_cast<double>(k + 1) / parts;
       lines.push_back({i, u, u1, step / parts, wide});
       if (lines.size() == beam::kLanes) hand_over();
     }
   }
-  if (!lines.empty() && !stop.stop_requested()) hand_over();
+  if (!lines.empty() && !stopped()) hand_over();
 }
 
 /// Returns the number of intervals across the wall: more if the wall is thick compared with the
@@ -161,10 +160,9 @@ void raise_to_rows(const BeamFound& rows, BeamFound& all) {
                          [](double a, double b) { return std::max(a, b); });
 }
 
-BeamFound found_at(const BeamCut& cut, const Surface& surface, SampleDensity density,
-                   const std::stop_token& stop) {
+BeamFound found_at(const BeamCut& cut, const Surface& surface, SampleDensity density) {
   BeamFound out{.gouged_from = std::vector<double>(cut.torch.size(), 0.0)};
-  if (stop.stop_requested()) return out;
+  if (stopped()) return out;
   const double half = 0.5 * cut.kerf;
   const bool rows_only = density == SampleDensity::rows;
   double length = 0.0;
@@ -181,21 +179,21 @@ BeamFound found_at(const BeamCut& cut, const Surface& surface, SampleDensity den
       .lines = rows_only ? 1 : finer * lines(cut),
       .first = 0,
       .end = surface.rows()};
-  see_cells(short_of, grid, stop, see);
+  see_cells(short_of, grid, see);
   grid.land = true;
-  if (!cut.land.empty()) see_cells(short_of, grid, stop, see);
+  if (!cut.land.empty()) see_cells(short_of, grid, see);
   grid.land = false;
   grid.lines = static_cast<int>(
       std::clamp((cut.outer - cut.inner) / (kFine * half + kTiny), 1.0 * lines(cut), kMostLines));
   if (!rows_only && half > 0.0)
-    for (const auto& [first, end] : beam::swings(cut, stop)) {
+    for (const auto& [first, end] : beam::swings(cut)) {
       grid.first = first;
       grid.end = end;
-      see_cells(short_of, grid, stop, see);
+      see_cells(short_of, grid, see);
     }
-  if (stop.stop_requested()) return out;
+  if (stopped()) return out;
   const int halvings = rows_only ? kHalvingsOfRows : kHalvings;
-  const auto gouge = gouges.worst(halvings, stop), left = lefts.worst(halvings, stop);
+  const auto gouge = gouges.worst(halvings), left = lefts.worst(halvings);
   out.proof = {.gouge = std::max(0.0, gouge.value),
                .gouge_phi = surface.phase(gouge.at),
                .left = std::max(0.0, left.value),
@@ -205,18 +203,17 @@ BeamFound found_at(const BeamCut& cut, const Surface& surface, SampleDensity den
 
 }  // namespace
 
-BeamFound beam_found(const BeamCut& cut, SampleDensity density, const std::stop_token& stop) {
+BeamFound beam_found(const BeamCut& cut, SampleDensity density) {
   if (cut.kerf == 0.0 && cut.land.empty() && cut.torch == cut.finished)
     return {.gouged_from = std::vector<double>(cut.torch.size(), 0.0)};
-  const Surface surface(cut, stop);
-  auto out = found_at(cut, surface, density, stop);
+  const Surface surface(cut);
+  auto out = found_at(cut, surface, density);
   if (density != SampleDensity::rows)
-    raise_to_rows(found_at(cut, surface, SampleDensity::rows, stop), out);
+    raise_to_rows(found_at(cut, surface, SampleDensity::rows), out);
   return out;
 }
 
-BeamProof clear_torch(std::size_t rows, const std::function<BeamCut(const Further&)>& cut,
-                      const std::stop_token& stop) {
+BeamProof clear_torch(std::size_t rows, const std::function<BeamCut(const Further&)>& cut) {
   constexpr double kAimed =
       0.7 * kGougeLimit;  // because slightly more may be removed than is found
   constexpr double kMore =
@@ -226,10 +223,8 @@ BeamProof clear_torch(std::size_t rows, const std::function<BeamCut(const Furthe
   for (int round = 0;; ++round) {
     const auto moved = cut(further);
     const bool bends = round > 0 && moved.turn == 0.0;  // the drop of an end is already the minimum
-    const auto found =
-        beam_found(moved, bends ? SampleDensity::finely : SampleDensity::everywhere, stop);
-    if (!(found.proof.gouge > kAimed) || round == kRounds || stop.stop_requested())
-      return found.proof;
+    const auto found = beam_found(moved, bends ? SampleDensity::finely : SampleDensity::everywhere);
+    if (!(found.proof.gouge > kAimed) || round == kRounds || stopped()) return found.proof;
     for (std::size_t i = 0; i < rows; ++i) further[i] += kMore * found.gouged_from[i];
     if (std::ranges::max(further) > moved.kerf) return found.proof;
   }

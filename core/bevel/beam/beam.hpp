@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -56,10 +55,8 @@ struct BeamFound {
 /// Accuracy  everywhere: gouge 1e-3 mm, left 5e-3 mm or 2 %. Rows: only the values at the rows.
 /// Cost      about 1 us a row, at least 0.3 ms; only rows: 0.5 us a row.
 /// Source    docs/theory/intersections-and-bevels.md, section 5.6.
-[[nodiscard]] BeamFound beam_found(const BeamCut& cut, SampleDensity density,
-                                   const std::stop_token& stop = {});
-[[nodiscard]] BeamProof beam_proof(const BeamCut& cut, SampleDensity density,
-                                   const std::stop_token& stop = {});
+[[nodiscard]] BeamFound beam_found(const BeamCut& cut, SampleDensity density);
+[[nodiscard]] BeamProof beam_proof(const BeamCut& cut, SampleDensity density);
 
 inline constexpr double kGougeLimit = 0.01;  // mm
 
@@ -76,8 +73,7 @@ using Further = std::vector<double>;
 /// kerf is not enough. `cut` returns the cut with its rows moved; its last call is for the result.
 /// If a row of a hole was moved, its wall bends, and the check samples three times as densely.
 [[nodiscard]] BeamProof clear_torch(std::size_t rows,
-                                    const std::function<BeamCut(const Further&)>& cut,
-                                    const std::stop_token& stop = {});
+                                    const std::function<BeamCut(const Further&)>& cut);
 
 struct TableSpec;
 struct Table;
@@ -95,7 +91,6 @@ struct Hole;
 
 /// Checks `gouge` against its limit, and the stated values of the torch line against the cut's own
 /// rows.
-[[nodiscard]] std::vector<Check> verify_torch_line(const BeamCut& cut, const BeamProof& stated,
-                                                   const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Check> verify_torch_line(const BeamCut& cut, const BeamProof& stated);
 
 }  // namespace tubecut::bevel

@@ -8,6 +8,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 
 namespace tubecut::bevel::beam {
 namespace {
@@ -87,13 +88,13 @@ AcrossWall between(const std::vector<AcrossWall>& rows, double turn, std::size_t
           mixed(a.phi_outer, b.phi_outer, u), mixed(a.z_outer, b.z_outer, u)};
 }
 
-Axes::Axes(const BeamCut& cut, const std::stop_token& stop) : cut_(cut) {
+Axes::Axes(const BeamCut& cut) : cut_(cut) {
   const auto n = cut.torch.size();
   if (n == 0) return;
   auto rows = placed(cut, cut.torch);
   rows.push_back(placed(cut, between(cut.torch, cut.turn, n - 1, 1.0)));
   divide(rows);
-  add_ways(rows, stop);
+  add_ways(rows);
   travelled_.push_back(0.0);
   for (std::size_t k = 0; k < 2 * ways_.size(); ++k)
     travelled_.push_back(travelled_.back() + way(k).travel);
@@ -126,13 +127,13 @@ void Axes::divide(const std::vector<Line>& rows) {
   first_.push_back(parts_.size());
 }
 
-void Axes::add_ways(const std::vector<Line>& rows, const std::stop_token& stop) {
+void Axes::add_ways(const std::vector<Line>& rows) {
   constexpr std::size_t kTogether = 256;
   std::vector<AcrossWall> at;
   ways_.reserve(parts_.size());
   Line here = rows.front();
   for (std::size_t k = 0; k < parts_.size(); k += kTogether) {
-    if (stop.stop_requested()) break;
+    if (stopped()) break;
     const auto end = std::min(parts_.size(), k + kTogether);
     at.clear();
     for (auto j = k; j < end; ++j) {

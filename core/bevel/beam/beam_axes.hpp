@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <span>
-#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -45,7 +44,7 @@ struct Nearest {
 /// is contiguous.
 class Axes {
  public:
-  Axes(const BeamCut& cut, const std::stop_token& stop);
+  Axes(const BeamCut& cut);
 
   /// Finds the nearest axis of each point, less than half a lap from its own position on the path;
   /// for up to kLanes points near one another.
@@ -60,7 +59,7 @@ class Axes {
     double from, to;
   };
   void divide(const std::vector<Line>& rows);
-  void add_ways(const std::vector<Line>& rows, const std::stop_token& stop);
+  void add_ways(const std::vector<Line>& rows);
   [[nodiscard]] Way way(const Line& first, const Line& middle, const Line& last) const;
   [[nodiscard]] std::size_t stretch_of(const OnWay& at) const;
   [[nodiscard]] std::pair<std::size_t, std::size_t> stretches(std::span<const OnWay> own) const;

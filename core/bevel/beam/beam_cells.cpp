@@ -83,17 +83,17 @@ void Largest::see(const Cell& cell, double sign) {
   if (promises(most) || is_near_best(highest)) cells_.push_back(own);
 }
 
-Found Largest::worst(int halvings, const std::stop_token& stop) {
-  for (const Cell* start : best_cells(stop)) climb(*start, stop);
-  if (stop.stop_requested()) return best_;
+Found Largest::worst(int halvings) {
+  for (const Cell* start : best_cells()) climb(*start);
+  if (stopped()) return best_;
   std::vector<Cell> left;  // few of hundreds of thousands of cells can still exceed the best
   std::size_t seen = 0;
   for (const Cell& cell : cells_) {
-    if (stops(stop, seen++)) return best_;
+    if (stops(seen++)) return best_;
     if (promises(cell.most)) left.push_back(cell);
   }
   std::ranges::make_heap(left, {}, &Cell::most);
-  while (halvings-- > 0 && !left.empty() && !stop.stop_requested()) {
+  while (halvings-- > 0 && !left.empty() && !stopped()) {
     std::ranges::pop_heap(left, {}, &Cell::most);
     const Cell cell = left.back();
     left.pop_back();
@@ -125,12 +125,12 @@ void Largest::keep(const Cell& cell) {
 }
 
 /// Returns a few cells that are not neighbours and have nearly the best value.
-std::vector<const Cell*> Largest::best_cells(const std::stop_token& stop) const {
+std::vector<const Cell*> Largest::best_cells() const {
   constexpr std::size_t kPool = 64, kClimbs = 6;
   std::vector<const Cell*> pool;
   std::size_t seen = 0;
   for (const Cell& cell : cells_) {
-    if (stops(stop, seen++)) return {};
+    if (stops(seen++)) return {};
     if (is_near_best(cell.highest())) pool.push_back(&cell);
   }
   const auto top = pool.begin() + static_cast<std::ptrdiff_t>(std::min(kPool, pool.size()));
@@ -143,12 +143,12 @@ std::vector<const Cell*> Largest::best_cells(const std::stop_token& stop) const 
 }
 /// Climbs from a cell's best corner to a point from which no step of a hundredth of the cell leads
 /// up.
-void Largest::climb(const Cell& cell, const std::stop_token& stop) {
+void Largest::climb(const Cell& cell) {
   constexpr int kSteps = 100;
   Found here = highest(cell);
   double along = 0.5 * cell.along, across = 0.5 * cell.across;
   for (int step = 0; step < kSteps && along > 0.01 * cell.along; ++step) {
-    if (stop.stop_requested()) return;
+    if (stopped()) return;
     const std::array<Place, 4> beside{
         figure_.surface.moved(here.at, along, 0.0), figure_.surface.moved(here.at, -along, 0.0),
         figure_.surface.moved(here.at, 0.0, across), figure_.surface.moved(here.at, 0.0, -across)};

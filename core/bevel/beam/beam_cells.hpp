@@ -5,7 +5,6 @@
 #include <deque>
 #include <limits>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/bevel/beam/beam_surface.hpp"
@@ -69,7 +68,7 @@ class Largest {
   explicit Largest(const Figure& figure) : figure_(figure) {}
   /// Adds a cell with its slopes; figures are those of its corners, times `sign`.
   void see(const Cell& cell, double sign);
-  [[nodiscard]] Found worst(int halvings, const std::stop_token& stop);
+  [[nodiscard]] Found worst(int halvings);
 
  private:
   [[nodiscard]] bool promises(double most) const;
@@ -78,8 +77,8 @@ class Largest {
   void keep(const Found& found) {
     if (found.value > best_.value) best_ = found;
   }
-  [[nodiscard]] std::vector<const Cell*> best_cells(const std::stop_token& stop) const;
-  void climb(const Cell& cell, const std::stop_token& stop);
+  [[nodiscard]] std::vector<const Cell*> best_cells() const;
+  void climb(const Cell& cell);
   [[nodiscard]] std::array<Cell, 4> quartered(const Cell& cell) const;
 
   const Figure& figure_;

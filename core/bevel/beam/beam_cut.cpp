@@ -63,8 +63,8 @@ BeamCut beam_cut(const HoleSpec& spec, const Hole& hole) {
   return out;
 }
 
-BeamProof beam_proof(const BeamCut& cut, SampleDensity density, const std::stop_token& stop) {
-  return beam_found(cut, density, stop).proof;
+BeamProof beam_proof(const BeamCut& cut, SampleDensity density) {
+  return beam_found(cut, density).proof;
 }
 
 Result<void> check_spared(const BeamCut& cut, const BeamProof& proof) {
@@ -79,11 +79,10 @@ Result<void> check_spared(const BeamCut& cut, const BeamProof& proof) {
                        " deg: the wall bends tighter there than the kerf"});
 }
 
-std::vector<Check> verify_torch_line(const BeamCut& cut, const BeamProof& stated,
-                                     const std::stop_token& stop) {
+std::vector<Check> verify_torch_line(const BeamCut& cut, const BeamProof& stated) {
   constexpr double kGouge = 1e-3;                // mm: the accuracy of beam_proof
   constexpr double kLeft = 5e-3, kShare = 0.02;  // mm, and relative to `left`
-  const auto seen = beam_proof(cut, SampleDensity::rows, stop);
+  const auto seen = beam_proof(cut, SampleDensity::rows);
   return {{"gouge", worst_of({seen.gouge, stated.gouge}), kGougeLimit, "mm"},
           {"gouge_stated", worst_of({0.0, seen.gouge - stated.gouge}), kGouge, "mm"},
           {"left_stated", worst_of({0.0, seen.left - stated.left}),

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/math/cylinder.hpp"
 
 namespace tubecut::bevel::beam {
@@ -21,11 +22,11 @@ Vector3d mixed_points(const Vector3d& a, const Vector3d& b, double u) {
 
 }  // namespace
 
-Surface::Surface(const BeamCut& cut, const std::stop_token& stop) : cut_(cut), axes_(cut, stop) {
-  if (rows() > 0) see_rows(stop);
+Surface::Surface(const BeamCut& cut) : cut_(cut), axes_(cut) {
+  if (rows() > 0) see_rows();
 }
 
-void Surface::see_rows(const std::stop_token& stop) {
+void Surface::see_rows() {
   const auto n = rows();
   auto finished = placed(cut_, cut_.finished), torch = placed(cut_, cut_.torch);
   for (auto* lines : {&finished, &torch}) {
@@ -33,7 +34,7 @@ void Surface::see_rows(const std::stop_token& stop) {
     lines->push_back(placed(cut_, between(all, cut_.turn, n - 1, 1.0)));
   }
   for (auto* column : {&steps_, &on_wall_, &on_land_}) column->reserve(n);
-  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < n && !stopped(); ++i) {
     const Line &here = finished[i], &there = finished[i + 1];
     along_.push_back(0.5 * (there.from - here.from + there.to - here.to));
     steps_.push_back(length(i));

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/bevel/beam/beam_axes.hpp"
@@ -21,7 +20,7 @@ struct Place {
 /// The finished surface and the axes near it.
 class Surface {
  public:
-  Surface(const BeamCut& cut, const std::stop_token& stop);
+  Surface(const BeamCut& cut);
 
   /// The nearest axis to a point: its distance, negative if it lies beyond the finished line of its
   /// own row, in the part; and its position on the torch's path.
@@ -55,7 +54,7 @@ class Surface {
   [[nodiscard]] double length(std::size_t row) const;
   [[nodiscard]] double beyond(const Line& finished, std::size_t row,
                               const Eigen::Vector3d& point) const;
-  void see_rows(const std::stop_token& stop);
+  void see_rows();
 
   const BeamCut& cut_;
   Axes axes_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/bevel/beam/beam_surface.hpp"
 
 namespace tubecut::bevel::beam {
@@ -14,9 +15,9 @@ constexpr double kTiny = 1e-300;  // mm: steps may have zero length
 
 /// Marks the rows near which these leans differ within half a kerf.
 void mark_swings(const std::vector<double>& leans, const std::vector<double>& steps, double reach,
-                 std::vector<bool>& near, const std::stop_token& stop) {
+                 std::vector<bool>& near) {
   const auto n = leans.size();
-  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < n && !stopped(); ++i) {
     double low = leans[i], high = low, left = reach;  // distance ahead
     std::size_t k = i;
     for (; k < i + n && left > 0.0; ++k) {
@@ -33,8 +34,7 @@ void mark_swings(const std::vector<double>& leans, const std::vector<double>& st
 
 }  // namespace
 
-std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut,
-                                                        const std::stop_token& stop) {
+std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut) {
   const auto n = cut.torch.size();
   const bool hole = cut.turn == 0.0;
   const double wall = cut.outer - cut.inner;
@@ -51,8 +51,8 @@ std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut,
   elementary::atan2(along_tube, walls, along_tube);
   if (hole) elementary::atan2(round_tube, walls, round_tube);
   std::vector<bool> near(n, false);
-  mark_swings(along_tube, steps, 0.5 * cut.kerf, near, stop);
-  if (hole) mark_swings(round_tube, steps, 0.5 * cut.kerf, near, stop);
+  mark_swings(along_tube, steps, 0.5 * cut.kerf, near);
+  if (hole) mark_swings(round_tube, steps, 0.5 * cut.kerf, near);
   std::vector<std::pair<std::size_t, std::size_t>> out;
   for (std::size_t i = 0; i < n; ++i) {
     if (!near[i]) continue;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -12,7 +11,6 @@ namespace tubecut::bevel::beam {
 /// Returns the runs of rows near which, within half a kerf, the torch leans differently. There, a
 /// spot where the beam is in the part can be narrow across the wall. Beams of an end pass one
 /// another by phase, those of a hole in any direction.
-[[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut,
-                                                                      const std::stop_token& stop);
+[[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> swings(const BeamCut& cut);
 
 }  // namespace tubecut::bevel::beam

@@ -8,6 +8,7 @@
 #include "core/base/angle.hpp"
 #include "core/base/lanes.hpp"
 #include "core/base/pack.hpp"
+#include "core/base/stop.hpp"
 
 namespace tubecut::bevel::drop {
 namespace {
@@ -363,10 +364,9 @@ void Axes::resize(std::size_t n) {
   for (auto* column : {&phi, &sine, &cosine, &foot, &slope, &secant}) column->resize(n);
 }
 
-void least(const Finished& finished, const Axes& axes, std::span<double> out,
-           const std::stop_token& stop) {
+void least(const Finished& finished, const Axes& axes, std::span<double> out) {
   DropSearch drop_search(finished, 1);
-  for (std::size_t i = 0; i < axes.phi.size() && !stop.stop_requested();) {
+  for (std::size_t i = 0; i < axes.phi.size() && !stopped();) {
     const auto end = drop_search.take(axes, i);
     drop_search.past_circles();
     for (const auto& band : finished.bands) drop_search.past_lines(band);

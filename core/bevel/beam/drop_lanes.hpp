@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 /// The search for the smallest drop of `torch_line`, eight axes in parallel (base/lanes.hpp).
@@ -51,7 +50,6 @@ struct Axes {
 ///
 /// Accuracy  1e-5 of half the kerf, times the secant of the finished surface's slope.
 /// Cost      per axis and circle some 10 ns for each interval in reach, 5 for each line.
-void least(const Finished& finished, const Axes& axes, std::span<double> out,
-           const std::stop_token& stop);
+void least(const Finished& finished, const Axes& axes, std::span<double> out);
 
 }  // namespace tubecut::bevel::drop

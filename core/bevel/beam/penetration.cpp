@@ -8,6 +8,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/joint/solid_arrays.hpp"
 
 namespace tubecut::bevel {
@@ -147,20 +148,18 @@ class Search {
   Search(const RowRing& ring, const Kind& solid, std::size_t index, Aim& aim)
       : ring_(ring), solid_(solid), index_(index), aim_(aim) {}
 
-  void run(const std::stop_token& stop) {
+  void run() {
     if constexpr (joint::PlainSolid<Kind>)
-      by_levels(
-          strips(), [&](auto& level, auto& next) { halve(level, next, stop); }, stop);
+      by_levels(strips(), [&](auto& level, auto& next) { halve(level, next); });
     else
-      by_levels(
-          cells(), [&](const auto& level, auto& next) { divide(level, next, stop); }, stop);
+      by_levels(cells(), [&](const auto& level, auto& next) { divide(level, next); });
   }
 
  private:
   template <class Part>
-  static void by_levels(std::vector<Part> level, auto&& split, const std::stop_token& stop) {
+  static void by_levels(std::vector<Part> level, auto&& split) {
     std::vector<Part> next;
-    while (!level.empty() && !stop.stop_requested()) {
+    while (!level.empty() && !stopped()) {
       next.clear();
       split(level, next);
       level.swap(next);
@@ -226,13 +225,13 @@ class Search {
   /// Checks the lines in the middle of those strips of a level that may exceed the depth found so
   /// far, in parallel; then one strip after the other, because a result may be enough for the
   /// strips after it.
-  void halve(std::vector<Strip>& open, std::vector<Strip>& out, const std::stop_token& stop) {
+  void halve(std::vector<Strip>& open, std::vector<Strip>& out) {
     std::erase_if(open, [&](const Strip& s) { return !holds_more(s); });
     const auto [a, b] = middles(open);
     std::vector<double> share(open.size()), distance(open.size());
     joint::nearest_on_ways(solid_, a, b, share, distance);
     for (std::size_t i = 0; i < open.size(); ++i) {
-      if (i % 1024 == 0 && stop.stop_requested()) return;
+      if (i % 1024 == 0 && stopped()) return;
       const auto& s = open[i];
       if (!holds_more(s)) continue;
       see(s.gap, distance[i], share[i], a, b, i);
@@ -259,10 +258,9 @@ class Search {
     return out;
   }
 
-  void divide(const std::vector<WallCell>& level, std::vector<WallCell>& out,
-              const std::stop_token& stop) {
+  void divide(const std::vector<WallCell>& level, std::vector<WallCell>& out) {
     for (const auto& cell : level) {
-      if (stop.stop_requested()) return;
+      if (stopped()) return;
       divide(cell, out);
     }
   }
@@ -310,13 +308,12 @@ class Search {
 };
 
 template <class Aim>
-void search(const CutWall& wall, std::span<const Solid> solids, Aim& aim,
-            const std::stop_token& stop) {
-  for (std::size_t edge = 0; edge + 1 < wall.edges.size() && !stop.stop_requested(); ++edge) {
+void search(const CutWall& wall, std::span<const Solid> solids, Aim& aim) {
+  for (std::size_t edge = 0; edge + 1 < wall.edges.size() && !stopped(); ++edge) {
     const auto ring = ring_of(wall, edge);
-    for (std::size_t solid = 0; solid < solids.size() && !stop.stop_requested(); ++solid)
+    for (std::size_t solid = 0; solid < solids.size() && !stopped(); ++solid)
       joint::by_kind(solids[solid].kind(),
-                     [&](const auto& kind) { Search(ring, kind, solid, aim).run(stop); });
+                     [&](const auto& kind) { Search(ring, kind, solid, aim).run(); });
   }
 }
 
@@ -346,10 +343,9 @@ struct Entering {
 
 }  // namespace
 
-Penetration deepest(const CutWall& wall, std::span<const Solid> solids, double slack,
-                    const std::stop_token& stop) {
+Penetration deepest(const CutWall& wall, std::span<const Solid> solids, double slack) {
   Deepest aim{.slack = slack};
-  search(wall, solids, aim, stop);
+  search(wall, solids, aim);
   const auto& [depth, at, solid] = aim.best;
   const double phi = elementary::atan2(at.y(), at.x());
   return {.depth = depth,
@@ -359,10 +355,9 @@ Penetration deepest(const CutWall& wall, std::span<const Solid> solids, double s
           .solid = solid};
 }
 
-std::vector<bool> entering(const CutWall& wall, std::span<const Solid> solids, double limit,
-                           const std::stop_token& stop) {
+std::vector<bool> entering(const CutWall& wall, std::span<const Solid> solids, double limit) {
   Entering aim{.limit = limit, .gaps = std::vector<bool>(wall.gaps(), false)};
-  search(wall, solids, aim, stop);
+  search(wall, solids, aim);
   return aim.gaps;
 }
 

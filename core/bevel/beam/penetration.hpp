@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/joint/solid.hpp"
@@ -42,16 +41,16 @@ struct Penetration {
 /// middle of a part bounds it (a convex distance lies above it, an elbow's below it by at most its
 /// hollow side). Parts that might be deeper are halved.
 ///
-/// Errors  never; when `stop` is requested, the search ends early and the bound does not hold.
+/// Errors  never; if cancelled, the search ends early and the bound does not hold.
 /// Cost    one line a row and solid, and those of the parts that come within `slack` of the
 ///         deepest.
 /// Source  docs/theory/intersections-and-bevels.md, section 5.7.
 [[nodiscard]] Penetration deepest(const CutWall& wall, std::span<const joint::Solid> solids,
-                                  double slack, const std::stop_token& stop = {});
+                                  double slack);
 
 /// Returns the gaps (i: from row i to the next) in which the wall may enter a solid by more than
 /// `limit`, by the same enclosure: none is missed; gaps within 2 % below it may be included.
 [[nodiscard]] std::vector<bool> entering(const CutWall& wall, std::span<const joint::Solid> solids,
-                                         double limit, const std::stop_token& stop = {});
+                                         double limit);
 
 }  // namespace tubecut::bevel

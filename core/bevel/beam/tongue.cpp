@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "core/base/stop.hpp"
 #include "core/math/rotation.hpp"
 
 namespace tubecut::bevel {
@@ -53,12 +54,12 @@ class Edge {
 }  // namespace
 
 std::optional<Tongue> narrowest_tongue(const joint::Target& target, const Table& table,
-                                       bool towards_plus_z, const std::stop_token& stop) {
+                                       bool towards_plus_z) {
   std::optional<Tongue> out;
   const auto see = [&](double radius, const std::vector<double>& z) {
     const Edge edge(table.phi, z, towards_plus_z ? 1.0 : -1.0);
     if (!(edge.relief() > target.wall)) return;
-    for (std::size_t i = 0; i < edge.size() && !stop.stop_requested(); ++i) {
+    for (std::size_t i = 0; i < edge.size() && !stopped(); ++i) {
       if (!edge.tip(i)) continue;
       const double level = edge.height(i) - target.wall;
       const double round = edge.above(i, level, true) + edge.above(i, level, false);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 
 #include "core/bevel/table/table.hpp"
 
@@ -18,8 +17,7 @@ struct Tongue {
 /// wall is thick. The kept part lies towards +z; `towards_plus_z`: the tongues point there, as
 /// those of a part's finish do.
 [[nodiscard]] std::optional<Tongue> narrowest_tongue(const joint::Target& target,
-                                                     const Table& table, bool towards_plus_z,
-                                                     const std::stop_token& stop = {});
+                                                     const Table& table, bool towards_plus_z);
 
 /// Returns the travel of the head along the tube in this cut, mm.
 [[nodiscard]] double reach(const Table& table);

@@ -89,9 +89,8 @@ struct Columns {
 
 class LeastDrop {
  public:
-  LeastDrop(const TableSpec& spec, const Table& t, const std::stop_token& stop)
-      : stop_(stop),
-        kerf_(spec.kerf),
+  LeastDrop(const TableSpec& spec, const Table& t)
+      : kerf_(spec.kerf),
         flat_(std::min(kFlattest * spec.target.outer_radius,
                        kFlat * (spec.kerf + 0.1 * spec.target.wall))),
         widest_(kWidest * spec.target.outer_radius),
@@ -117,7 +116,7 @@ class LeastDrop {
     };
     for (const double u : {0.0, 1.0, 0.5}) finished_.circles.push_back(across(u));
     for (const double u : shares_between(inner, outer, spec.kerf)) {
-      if (stop.stop_requested()) return;  // because the result is not read
+      if (stopped()) return;  // because the result is not read
       finished_.between.push_back(across(u));
     }
     set_swing(edge, outer);
@@ -145,7 +144,7 @@ class LeastDrop {
       return a.row != b.row ? a.row < b.row : a.u < b.u;
     };
     std::vector<DropSample> both;
-    while (!gaps.empty() && !stop_.stop_requested()) {
+    while (!gaps.empty() && !stopped()) {
       std::vector<DropSample> middles;
       gaps = halved(gaps, middles);
       both.resize(out.size() + middles.size());
@@ -221,7 +220,7 @@ class LeastDrop {
         .low = low, .high = high, .phi = {}, .sine = {}, .cosine = {}, .foot = {}, .slope = {}};
     const double apart = kLines * finished_.half;
     for (auto* column : {&out.phi, &out.foot, &out.slope}) column->reserve(4 * lines.phi.size());
-    for (std::size_t i = 0; i < lines.phi.size() && !stops(stop_, i); ++i) {
+    for (std::size_t i = 0; i < lines.phi.size() && !stops(i); ++i) {
       const double width = lines.width(i), parts = std::ceil(high * width / apart);
       const auto j = lines.next(i);
       const int n = static_cast<int>(std::clamp(parts, 1.0, kMostLines));
@@ -271,7 +270,7 @@ class LeastDrop {
     }
     elementary::sincos(axes.phi, axes.sine, axes.cosine);
     std::vector<double> drops(n);
-    drop::least(finished_, axes, drops, stop_);
+    drop::least(finished_, axes, drops);
     for (std::size_t k = 0; k < n; ++k) at[k].drop = drops[k];
     return std::move(axes.secant);
   }
@@ -314,7 +313,6 @@ class LeastDrop {
     return out;
   }
 
-  const std::stop_token& stop_;
   double kerf_, flat_, widest_;
   double lean_ = 0.0;  // the largest sine of B
   Columns lines_;
@@ -347,18 +345,17 @@ void append_bends(const LeastDrop& drop, double phi, double tolerance,
 
 }  // namespace
 
-TorchLine torch_line(const TableSpec& spec, const Table& table, const std::stop_token& stop) {
-  return torch_line(spec, table, std::vector<bool>(table.phi.size(), true), stop);
+TorchLine torch_line(const TableSpec& spec, const Table& table) {
+  return torch_line(spec, table, std::vector<bool>(table.phi.size(), true));
 }
 
-TorchLine torch_line(const TableSpec& spec, const Table& table, const std::vector<bool>& wanted,
-                     const std::stop_token& stop) {
+TorchLine torch_line(const TableSpec& spec, const Table& table, const std::vector<bool>& wanted) {
   const auto n = table.phi.size();
   TorchLine out{std::vector<double>(n, 0.0), {}};
   if (spec.kerf == 0.0 && table.z_face.empty()) return out;
-  const LeastDrop drop(spec, table, stop);
+  const LeastDrop drop(spec, table);
   std::size_t known = 0;  // rows before this one have their drops
-  for (std::size_t first = 0, end = 0; first < n && !stop.stop_requested(); first = end) {
+  for (std::size_t first = 0, end = 0; first < n && !stopped(); first = end) {
     for (end = first; end < n && end - first < kRows && wanted[end] == wanted[first];) ++end;
     if (!wanted[first]) continue;
     const auto places = drop.places(first, end);

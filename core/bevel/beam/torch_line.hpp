@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/bevel/beam/beam.hpp"
@@ -52,12 +51,11 @@ struct TorchLine {
 /// Cost      about 0.2 us a sample, two or more of them a row, eight in parallel; each row within
 ///           half a kerf of a sample 10 ns a circle.
 /// Source    docs/theory/intersections-and-bevels.md, section 5.6.
-[[nodiscard]] TorchLine torch_line(const TableSpec& spec, const Table& table,
-                                   const std::stop_token& stop = {});
+[[nodiscard]] TorchLine torch_line(const TableSpec& spec, const Table& table);
 /// Computes only the paths from wanted rows to the next: their bends, and drops that have no
 /// meaning.
 [[nodiscard]] TorchLine torch_line(const TableSpec& spec, const Table& table,
-                                   const std::vector<bool>& wanted, const std::stop_token& stop);
+                                   const std::vector<bool>& wanted);
 /// Returns the paths from which the beam reaches rows at these phases, rad.
 [[nodiscard]] std::vector<bool> ways_near(const TableSpec& spec, const Table& table,
                                           std::span<const double> phases);

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/beam/beam.hpp"
 #include "core/bevel/beam/torch_line.hpp"
@@ -41,13 +42,12 @@ struct Node {
 /// Bisects the branch's phases until both edges are straight within the tolerance.
 class Refiner {
  public:
-  Refiner(const HoleSpec& spec, const WallLines& walls, const std::stop_token& stop)
-      : spec_(spec), walls_(walls), stop_(stop) {}
+  Refiner(const HoleSpec& spec, const WallLines& walls) : spec_(spec), walls_(walls) {}
 
   std::vector<Node> uniform(std::size_t n) const {
     std::vector<Node> out;
     out.reserve(n);
-    for (std::size_t i = 0; i < n && !stop_.stop_requested(); ++i)
+    for (std::size_t i = 0; i < n && !stopped(); ++i)
       out.push_back(at(kTwoPi * static_cast<double>(i) / static_cast<double>(n)));
     return out;
   }
@@ -65,7 +65,7 @@ class Refiner {
   /// Adds a node in the middle of each flagged gap.
   std::vector<Node> halved(const std::vector<Node>& nodes, const std::vector<bool>& gaps) const {
     std::vector<Node> out;
-    for (std::size_t i = 0; i < nodes.size() && !stop_.stop_requested(); ++i) {
+    for (std::size_t i = 0; i < nodes.size() && !stopped(); ++i) {
       out.push_back(nodes[i]);
       const double next = i + 1 < nodes.size() ? nodes[i + 1].phase : kTwoPi + nodes.front().phase;
       if (gaps[i]) out.push_back(at(0.5 * (nodes[i].phase + next)));
@@ -117,8 +117,7 @@ class Refiner {
   }
 
   void halve(const Node& a, const Node& b, int halvings, std::vector<Node>& out) const {
-    if (halvings == 0 || out.size() > spec_.sampling.max_nodes || stop_.stop_requested() ||
-        straight(a, b))
+    if (halvings == 0 || out.size() > spec_.sampling.max_nodes || stopped() || straight(a, b))
       return;
     const Node mid = at(0.5 * (a.phase + b.phase));
     halve(a, mid, halvings - 1, out);
@@ -128,12 +127,10 @@ class Refiner {
 
   const HoleSpec& spec_;
   const WallLines& walls_;
-  const std::stop_token& stop_;
 };
 
-Result<void> check_count(const HoleSpec& spec, const std::vector<Node>& nodes,
-                         const std::stop_token& stop) {
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+Result<void> check_count(const HoleSpec& spec, const std::vector<Node>& nodes) {
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   if (nodes.size() > spec.sampling.max_nodes)
     return fail({.code = ErrorCode::too_many_nodes,
                  .member = "sampling",
@@ -142,14 +139,13 @@ Result<void> check_count(const HoleSpec& spec, const std::vector<Node>& nodes,
   return {};
 }
 
-Result<std::vector<Node>> sample(const HoleSpec& spec, const Refiner& refiner,
-                                 const std::stop_token& stop) {
+Result<std::vector<Node>> sample(const HoleSpec& spec, const Refiner& refiner) {
   const auto& s = spec.sampling;
   if (s.tolerance ? !(s.tolerance->value > 0.0) : s.uniform_points == 0)
     return fail({.code = ErrorCode::out_of_range, .member = "sampling"});
   auto nodes = s.tolerance ? refiner.with(refiner.adaptive(), s.uniform_points)
                            : refiner.uniform(s.uniform_points);
-  TRY(check_count(spec, nodes, stop));
+  TRY(check_count(spec, nodes));
   return nodes;
 }
 
@@ -188,13 +184,12 @@ Result<void> check_lines(const HoleSpec& spec, const std::vector<Node>& nodes) {
 
 /// Rejects walls whose lines cross: the other edge turns back there, and no cut makes such a wall,
 /// even without kerf.
-Result<void> check_edges(const HoleSpec& spec, const std::vector<Node>& nodes, const Hole& hole,
-                         const std::stop_token& stop) {
+Result<void> check_edges(const HoleSpec& spec, const std::vector<Node>& nodes, const Hole& hole) {
   const bool crosses = std::ranges::any_of(std::array{0.0, 0.5, 1.0}, [&](double u) {
-    const auto polygon = slice(spec.chord, hole, u, 0.0, stop);
-    return math::crossed_area(polygon, stop) > kCrossed * math::area(polygon);
+    const auto polygon = slice(spec.chord, hole, u, 0.0);
+    return math::crossed_area(polygon) > kCrossed * math::area(polygon);
   });
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   if (!crosses) return {};
   Intervals back;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -261,13 +256,12 @@ Hole tabulate(const HoleSpec& spec, const WallLines& walls, const std::vector<No
 
 /// Moves the torch half a kerf off the wall, and further if a beam of that width would remove metal
 /// from it: next to its own line, where the wall turns, and between nodes.
-Hole cleared(const HoleSpec& spec, const WallLines& walls, std::vector<Node>& nodes, bool far,
-             const std::stop_token& stop) {
+Hole cleared(const HoleSpec& spec, const WallLines& walls, std::vector<Node>& nodes, bool far) {
   auto out = tabulate(spec, walls, nodes, far);
   if (spec.kerf == 0.0) return out;
   const auto moved = [&](const Further& further) {
     bool any = false;
-    for (std::size_t i = 0; i < nodes.size() && !stop.stop_requested(); ++i) {
+    for (std::size_t i = 0; i < nodes.size() && !stopped(); ++i) {
       if (further[i] == 0.0) continue;
       nodes[i].line = walls.at(nodes[i].phase, 0.5 * spec.kerf + further[i]);
       any = true;
@@ -275,47 +269,45 @@ Hole cleared(const HoleSpec& spec, const WallLines& walls, std::vector<Node>& no
     if (any) out = tabulate(spec, walls, nodes, far);
     return beam_cut(spec, out);
   };
-  const auto proof = clear_torch(nodes.size(), moved, stop);
+  const auto proof = clear_torch(nodes.size(), moved);
   out.torch_line = proof;
   return out;
 }
 
 /// Returns the gaps between nodes in which the wall that faces the other member is too near to it.
 Result<std::vector<bool>> too_near(const HoleSpec& spec, const joint::TubeCutter& branch,
-                                   const Hole& hole, const std::stop_token& stop) {
-  if (spec.kind != JointKind::set_on) return too_near_between(spec, branch, hole, stop);
-  TRY(const auto end, branch_end(spec, branch, hole.branch_phi, stop));
-  return too_near_between(spec, branch, end, stop);
+                                   const Hole& hole) {
+  if (spec.kind != JointKind::set_on) return too_near_between(spec, branch, hole);
+  TRY(const auto end, branch_end(spec, branch, hole.branch_phi));
+  return too_near_between(spec, branch, end);
 }
 
 /// Adds nodes until the gap is kept between nodes too. This is needed because edges within the
 /// tolerance of their curves at probes do not guarantee it, and the branch's end has the hole's
 /// nodes.
 Result<void> keep_gap(const HoleSpec& spec, const joint::TubeCutter& branch, const Refiner& refiner,
-                      const WallLines& walls, bool far, std::vector<Node>& nodes,
-                      const std::stop_token& stop) {
+                      const WallLines& walls, bool far, std::vector<Node>& nodes) {
   if (!spec.sampling.tolerance) return {};
   for (int k = 0; k < kHalvings; ++k) {
-    TRY(const auto gaps, too_near(spec, branch, tabulate(spec, walls, nodes, far), stop));
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    TRY(const auto gaps, too_near(spec, branch, tabulate(spec, walls, nodes, far)));
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     if (std::ranges::none_of(gaps, std::identity())) return {};
     nodes = refiner.halved(nodes, gaps);
-    TRY(check_count(spec, nodes, stop));
+    TRY(check_count(spec, nodes));
   }
   return {};
 }
 
-void fill_lengths(const joint::Contour& root, const std::vector<Node>& nodes, Hole& out,
-                  const std::stop_token& stop) {
+void fill_lengths(const joint::Contour& root, const std::vector<Node>& nodes, Hole& out) {
   std::vector<double> phases;
   for (const auto& node : nodes) phases.push_back(node.phase);
-  out.length = joint::lengths_along(root, phases, stop);
+  out.length = joint::lengths_along(root, phases);
   out.length_total = out.length.back();
   out.length.pop_back();
 }
 
 Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, bool far,
-                      std::vector<Warning>& warnings, const std::stop_token& stop) {
+                      std::vector<Warning>& warnings) {
   const bool on = spec.kind == JointKind::set_on;
   const double rho = on ? branch.radius - spec.branch_wall : branch.radius + spec.gap;
   TRY(check_kerf(spec.kerf));
@@ -324,17 +316,17 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
   TRY(const auto root,
       joint_curve(branch, on ? spec.chord.outer_radius : spec.chord.inner_radius(), rho));
   const WallLines walls(spec, branch, rho, root.cutters.front());
-  const Refiner refiner(spec, walls, stop);
-  TRY(auto nodes, sample(spec, refiner, stop));
+  const Refiner refiner(spec, walls);
+  TRY(auto nodes, sample(spec, refiner));
   TRY(check_lines(spec, nodes));
-  TRY(keep_gap(spec, branch, refiner, walls, far, nodes, stop));
+  TRY(keep_gap(spec, branch, refiner, walls, far, nodes));
   TRY(check_lines(spec, nodes));
-  TRY(check_edges(spec, nodes, tabulate(spec, walls, nodes, far), stop));
-  auto out = cleared(spec, walls, nodes, far, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  TRY(check_edges(spec, nodes, tabulate(spec, walls, nodes, far)));
+  auto out = cleared(spec, walls, nodes, far);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   TRY(check_lines(spec, nodes));
   TRY(check_spared(beam_cut(spec, out), out.torch_line));
-  fill_lengths(root, nodes, out, stop);
+  fill_lengths(root, nodes, out);
   if (!root.near_parallel.empty() && !far)
     warnings.push_back({.code = WarningCode::near_parallel, .member = "branch"});
   note_lost(spec, nodes, warnings);
@@ -343,8 +335,8 @@ Result<Hole> one_hole(const HoleSpec& spec, const joint::TubeCutter& branch, boo
 
 /// Computes one hole. If the kerf is too wide, returns the first cause.
 Result<Hole> hole_or_cause(const HoleSpec& spec, const joint::TubeCutter& branch, bool far,
-                           std::vector<Warning>& warnings, const std::stop_token& stop) {
-  auto out = one_hole(spec, branch, far, warnings, stop);
+                           std::vector<Warning>& warnings) {
+  auto out = one_hole(spec, branch, far, warnings);
   const bool wide = !out && out.error().code() == ErrorCode::out_of_range &&
                     out.error().issues.front().member == "kerf" &&
                     0.5 * spec.kerf < branch.radius - spec.branch_wall;
@@ -352,17 +344,17 @@ Result<Hole> hole_or_cause(const HoleSpec& spec, const joint::TubeCutter& branch
   auto narrow = spec;
   narrow.kerf = 0.0;
   std::vector<Warning> none;
-  const auto lines = one_hole(narrow, branch, far, none, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  const auto lines = one_hole(narrow, branch, far, none);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   const double lean = lines ? furthest_lean(*lines) : 0.0;
   if (!(lean > kSteepLean)) return out;
   auto cause = first_cause(spec, lean, [&](const HoleSpec& changed) {
-    if (stop.stop_requested()) return false;
-    const auto cut = one_hole(changed, branch, far, none, stop);
+    if (stopped()) return false;
+    const auto cut = one_hole(changed, branch, far, none);
     if (!cut || changed.kind == JointKind::through) return cut.has_value();
-    return branch_end(changed, branch, cut->branch_phi, stop).has_value();
+    return branch_end(changed, branch, cut->branch_phi).has_value();
   });
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   if (cause) return fail(*std::move(cause));
   return out;
 }
@@ -374,25 +366,25 @@ Result<joint::TubeCutter> branch_tube(const BranchPlacement& branch) {
   return under("branch", std::get<joint::AxisTube>(branch).tube());
 }
 
-Result<HoleCut> hole(const HoleSpec& asked, const std::stop_token& stop) {
+Result<HoleCut> hole(const HoleSpec& asked) {
   if (asked.kind == JointKind::mitre)
     return fail({.code = ErrorCode::unsupported_combination, .member = "joint/kind"});
   TRY(const auto branch, branch_tube(asked.branch));
   HoleSpec spec = asked;
   spec.sampling.max_nodes = std::min(spec.sampling.max_nodes, most_rows(spec.kerf, branch.radius));
   HoleCut out;
-  TRY(auto near, hole_or_cause(spec, branch, false, out.warnings, stop));
+  TRY(auto near, hole_or_cause(spec, branch, false, out.warnings));
   out.holes.push_back(std::move(near));
   if (spec.kind == JointKind::through) {
-    TRY(auto far, hole_or_cause(spec, reversed(branch), true, out.warnings, stop));
+    TRY(auto far, hole_or_cause(spec, reversed(branch), true, out.warnings));
     out.holes.push_back(std::move(far));
   } else {
-    TRY(auto end, branch_end(spec, branch, out.holes.front().branch_phi, stop));
+    TRY(auto end, branch_end(spec, branch, out.holes.front().branch_phi));
     out.branch = std::move(end);
   }
   note_overhang(spec, branch, out.warnings);
-  for (auto& one : out.holes) one.fit = fit_up(spec, branch, out, one, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  for (auto& one : out.holes) one.fit = fit_up(spec, branch, out, one);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   note_nearest(spec, out);
   return out;
 }

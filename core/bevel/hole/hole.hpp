@@ -15,7 +15,6 @@
 //     const double length = cut.holes[0].length_total;  // mm, of the root: 166.7
 
 #include <optional>
-#include <stop_token>
 #include <variant>
 #include <vector>
 
@@ -115,11 +114,10 @@ struct HoleCut {
 ///           no such gap). On a bare grid this holds only at the nodes: if the gap falls short by
 ///           more than joint::Tolerance's, the result has the warning `enters_partner`.
 /// Source    docs/theory/intersections-and-bevels.md, section 8.
-[[nodiscard]] Result<HoleCut> hole(const HoleSpec& spec, const std::stop_token& stop = {});
+[[nodiscard]] Result<HoleCut> hole(const HoleSpec& spec);
 
 /// Verifies the answer in 3D: distances of its own points to the axes, by cross products.
-[[nodiscard]] std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut);
 
 /// Computes the branch's four numbers.
 ///

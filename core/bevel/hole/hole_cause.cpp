@@ -22,8 +22,9 @@ const char* beyond_hint(Tilt tilt) {
     case Tilt::free:
       return "the surfaces are too nearly tangent here";
     case Tilt::none:
-      return "a head that does not tilt cannot keep the hole's wall off the branch here, or its "
-             "range leaves out 0; tilt free can";
+      return "a head that does not tilt cannot keep the hole's wall off the branch here: its axis "
+             "may pass the chord's by at most the branch's radius; tilt free cuts more, but preset "
+             "tube_laser has none";
   }
   return "";
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/hole/hole_fit.hpp"
 #include "core/bevel/table/required.hpp"
@@ -23,13 +24,13 @@ Error about_branch(Error error) {
 /// Places the root on the inner wall, on the cylinder on which the end is set; B is at least flush
 /// if a smaller B would enter the wall.
 Result<void> stand_on(const HoleSpec& spec, const joint::Contour& contour, double radius,
-                      BranchEnd& end, const std::stop_token& stop) {
+                      BranchEnd& end) {
   const Wall wall{contour.radius, radius};
   const bool on = spec.kind == JointKind::set_on;
   const Rule rule(on ? spec.groove : GrooveRule{NoGroove{}}, Dihedral::weld_side);
   Intervals beyond;
   for (const double phi : end.phi) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     const auto line = joint::generator_at(contour.radius, phi);
     const auto hit = joint::continued_hit(contour.cutters.front(), line);
     const double required = required_bevel(contour.cutters, wall, line, hit.z);
@@ -68,7 +69,7 @@ Result<joint::Contour> joint_curve(const joint::TubeCutter& branch, double chord
 }
 
 Result<BranchEnd> branch_end(const HoleSpec& spec, const joint::TubeCutter& branch,
-                             const std::vector<double>& phases, const std::stop_token& stop) {
+                             const std::vector<double>& phases) {
   const bool on = spec.kind == JointKind::set_on;
   const double depth = spec.depth.value_or(spec.chord.wall);
   const double radius = spec.chord.outer_radius + (on ? spec.gap : -depth);
@@ -78,7 +79,7 @@ Result<BranchEnd> branch_end(const HoleSpec& spec, const joint::TubeCutter& bran
                 .z_outer = {},
                 .b = {}};
   TRY(const auto inner, joint_curve(branch, radius, branch.radius - spec.branch_wall));
-  TRY(stand_on(spec, inner, branch.radius, end, stop));
+  TRY(stand_on(spec, inner, branch.radius, end));
   return end;
 }
 

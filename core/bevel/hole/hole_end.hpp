@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <vector>
 
 #include "core/bevel/hole/hole.hpp"
@@ -18,8 +17,7 @@ namespace tubecut::bevel {
 /// Computes the end of a set-on or set-in branch at these phases.
 /// Errors  as joint_curve; torch_range if it cannot be cut flush on the chord.
 [[nodiscard]] Result<BranchEnd> branch_end(const HoleSpec& spec, const joint::TubeCutter& branch,
-                                           const std::vector<double>& phases,
-                                           const std::stop_token& stop);
+                                           const std::vector<double>& phases);
 
 /// Warns of a set-on branch whose bore is within the chord's sides, while its wall is not.
 void note_overhang(const HoleSpec& spec, const joint::TubeCutter& branch,

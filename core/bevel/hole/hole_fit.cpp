@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/joint/placement.hpp"
 #include "core/joint/solid.hpp"
 #include "core/math/cylinder.hpp"
@@ -106,10 +107,10 @@ joint::TubeCutter other_member(const HoleSpec& spec, const joint::TubeCutter& br
 }
 
 Penetration nearest(const HoleSpec& spec, const joint::TubeCutter& branch, const HoleCut& cut,
-                    const Hole& hole, const std::stop_token& stop) {
+                    const Hole& hole) {
   constexpr double kSlack = 3e-4;  // mm
   const joint::Solid other{joint::Cutter(other_member(spec, branch))};
-  auto out = deepest(facing_wall(spec, branch, cut, hole), {&other, 1}, kSlack, stop);
+  auto out = deepest(facing_wall(spec, branch, cut, hole), {&other, 1}, kSlack);
   out.depth = std::max(0.0, out.depth);
   return out;
 }
@@ -123,11 +124,11 @@ double nearer(const joint::TubeCutter& other, const Vector3d& place) {
 
 /// Returns the largest depth at a fixed set of points between the rows: in the middle and at one
 /// more position by the golden ratio, at both edges and once between them.
-double sampled(const CutWall& wall, const joint::TubeCutter& other, const std::stop_token& stop) {
+double sampled(const CutWall& wall, const joint::TubeCutter& other) {
   constexpr double kGolden = 0.6180339887498949;
   double deepest = 0.0, seed = 0.0;
   const auto next = [&] { return seed = seed + kGolden - std::floor(seed + kGolden); };
-  for (std::size_t i = 0; i < wall.gaps() && !stop.stop_requested(); ++i)
+  for (std::size_t i = 0; i < wall.gaps() && !stopped(); ++i)
     for (const double share : {0.5, next()}) {
       const auto j = (i + 1) % wall.gaps();
       const auto on = [&](const WallEdge& e) {
@@ -155,26 +156,26 @@ joint::TubeCutter chord_seen_from(const joint::TubeCutter& branch, double radius
 }
 
 std::vector<bool> too_near_between(const HoleSpec& spec, const joint::TubeCutter& branch,
-                                   const Hole& hole, const std::stop_token& stop) {
+                                   const Hole& hole) {
   const joint::Solid other{joint::Cutter(other_member(spec, branch))};
-  return entering(wall_of(spec, hole), {&other, 1}, spec.sampling.tolerance->value, stop);
+  return entering(wall_of(spec, hole), {&other, 1}, spec.sampling.tolerance->value);
 }
 
 std::vector<bool> too_near_between(const HoleSpec& spec, const joint::TubeCutter& branch,
-                                   const BranchEnd& end, const std::stop_token& stop) {
+                                   const BranchEnd& end) {
   const joint::Solid other{joint::Cutter(other_member(spec, branch))};
-  return entering(wall_of(spec, branch, end), {&other, 1}, spec.sampling.tolerance->value, stop);
+  return entering(wall_of(spec, branch, end), {&other, 1}, spec.sampling.tolerance->value);
 }
 
 FitUp fit_up(const HoleSpec& spec, const joint::TubeCutter& branch, const HoleCut& cut,
-             const Hole& hole, const std::stop_token& stop) {
+             const Hole& hole) {
   const auto wall = facing(spec, branch);
   const auto all = edges(spec, cut, hole);
   FitUp out;
   out.greatest_root_between = -std::numeric_limits<double>::infinity();
-  out.nearest = nearest(spec, branch, cut, hole, stop);
+  out.nearest = nearest(spec, branch, cut, hole);
   out.least_between = spec.gap - out.nearest.depth;
-  for (std::size_t i = 0; i + 1 < all.size() && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i + 1 < all.size() && !stopped(); ++i) {
     for (const double t : kBetween) {
       const auto gaps = wall.at(mixed(all[i], all[i + 1], t));
       if (t == 0.0) {
@@ -203,14 +204,14 @@ void note_nearest(const HoleSpec& spec, HoleCut& cut) {
 }
 
 std::vector<Check> nearest_checks(const HoleSpec& spec, const joint::TubeCutter& branch,
-                                  const HoleCut& cut, const std::stop_token& stop) {
+                                  const HoleCut& cut) {
   constexpr double kStated = 1e-3;  // mm
   const auto other = other_member(spec, branch);
   double off = 0.0, deepest = 0.0;
   for (const auto& hole : cut.holes) {
     const auto& p = hole.fit.nearest;
     const double there = worst_of({0.0, nearer(other, cylinder_point(p.radius, p.phi, p.z))});
-    const double found = sampled(facing_wall(spec, branch, cut, hole), other, stop);
+    const double found = sampled(facing_wall(spec, branch, cut, hole), other);
     off = worst_of({off, std::abs(there - p.depth), found - p.depth});
     deepest = worst_of({deepest, p.depth, found});
   }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <stop_token>
-
 #include "core/bevel/hole/hole.hpp"
 
 namespace tubecut::bevel {
@@ -16,16 +14,15 @@ namespace tubecut::bevel {
 ///
 /// Accuracy  none is missed; flagged from 0.98 of the tolerance on (`entering`).
 [[nodiscard]] std::vector<bool> too_near_between(const HoleSpec& spec,
-                                                 const joint::TubeCutter& branch, const Hole& hole,
-                                                 const std::stop_token& stop);
+                                                 const joint::TubeCutter& branch, const Hole& hole);
 [[nodiscard]] std::vector<bool> too_near_between(const HoleSpec& spec,
                                                  const joint::TubeCutter& branch,
-                                                 const BranchEnd& end, const std::stop_token& stop);
+                                                 const BranchEnd& end);
 
 /// Measures the gap between the two cut surfaces in 3D from the tables themselves: set-on, the
 /// branch's end to the chord's outer surface; else the hole's wall to the branch's outer surface.
 [[nodiscard]] FitUp fit_up(const HoleSpec& spec, const joint::TubeCutter& branch,
-                           const HoleCut& cut, const Hole& hole, const std::stop_token& stop);
+                           const HoleCut& cut, const Hole& hole);
 
 /// Adds a warning if a bare grid is nearer than the requested gap by more than joint::Tolerance's.
 void note_nearest(const HoleSpec& spec, HoleCut& cut);
@@ -33,7 +30,7 @@ void note_nearest(const HoleSpec& spec, HoleCut& cut);
 /// Checks the stated nearest points of the fit-ups, at those points and at others, by the distance
 /// to an axis.
 [[nodiscard]] std::vector<Check> nearest_checks(const HoleSpec& spec,
-                                                const joint::TubeCutter& branch, const HoleCut& cut,
-                                                const std::stop_token& stop);
+                                                const joint::TubeCutter& branch,
+                                                const HoleCut& cut);
 
 }  // namespace tubecut::bevel

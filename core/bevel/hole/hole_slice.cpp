@@ -9,13 +9,12 @@
 
 namespace tubecut::bevel {
 
-math::Polygon slice(const joint::Target& target, const Hole& hole, double u, double turn,
-                    const std::stop_token& stop) {
+math::Polygon slice(const joint::Target& target, const Hole& hole, double u, double turn) {
   const double inner = target.inner_radius(), outer = target.outer_radius;
   const double rho = inner + u * (outer - inner);
   math::Polygon out;
   for (auto* column : {&out.x, &out.y}) column->reserve(hole.phi.size());
-  for (std::size_t i = 0; i < hole.phi.size() && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i < hole.phi.size() && !stops(i); ++i) {
     // In the plane across the tube: from (inner, 0) by d, until rho from the axis.
     const auto swing = elementary::sincos(hole.phi[i] - hole.phi_inner[i]);
     const Eigen::Vector2d d{outer * swing.cos - inner, outer * swing.sin};

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <stop_token>
-
 #include "core/bevel/hole/hole.hpp"
 #include "core/math/polygon.hpp"
 
@@ -11,6 +9,6 @@ namespace tubecut::bevel {
 /// developed to (phi, z): where the straight lines from edge to edge cross it. `turn` is added to
 /// phi. If cancelled, returns some or no corners.
 [[nodiscard]] math::Polygon slice(const joint::Target& target, const Hole& hole, double u,
-                                  double turn, const std::stop_token& stop);
+                                  double turn);
 
 }  // namespace tubecut::bevel

@@ -4,6 +4,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/bevel/hole/hole.hpp"
 #include "core/bevel/hole/hole_fit.hpp"
 #include "core/joint/placement.hpp"
@@ -115,14 +116,14 @@ void prove_clearance(const HoleSpec& spec, const Hole& h, const Row& r, const Wa
 
 /// Checks the branch's end against the chord, in the branch's own frame.
 void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const BranchEnd& end,
-               const FitUp& fit, Proof& p, const std::stop_token& stop) {
+               const FitUp& fit, Proof& p) {
   const auto line = joint::axis_of(end.chord);
   const WallAxis axis{line.point, line.direction};
   const double outer = branch.radius, inner = branch.radius - spec.branch_wall;
   const bool on = spec.kind == JointKind::set_on;
   const double seat = on ? spec.chord.outer_radius + spec.gap
                          : spec.chord.outer_radius - spec.depth.value_or(spec.chord.wall);
-  for (std::size_t i = 0; i < end.phi.size() && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < end.phi.size() && !stopped(); ++i) {
     const Vector3d root = cylinder_point(inner, end.phi[i], end.z_inner[i]);
     const Vector3d face = cylinder_point(outer, end.phi[i], end.z_outer[i]);
     worsen(p.end, std::abs(axis.distance(root) - seat));
@@ -143,11 +144,10 @@ void prove_end(const HoleSpec& spec, const joint::TubeCutter& branch, const Bran
 }
 
 /// Returns the worst of each check of the torch's lines over the holes.
-std::vector<Check> torch_checks(const HoleSpec& spec, const HoleCut& cut,
-                                const std::stop_token& stop) {
+std::vector<Check> torch_checks(const HoleSpec& spec, const HoleCut& cut) {
   std::vector<Check> out;
   for (const auto& h : cut.holes) {
-    auto checks = verify_torch_line(beam_cut(spec, h), h.torch_line, stop);
+    auto checks = verify_torch_line(beam_cut(spec, h), h.torch_line);
     if (out.empty()) {
       out = std::move(checks);
       continue;
@@ -160,7 +160,7 @@ std::vector<Check> torch_checks(const HoleSpec& spec, const HoleCut& cut,
 
 }  // namespace
 
-std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut, const std::stop_token& stop) {
+std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut) {
   const auto branch = branch_tube(spec.branch);
   if (!branch) return {};
   const auto line = joint::axis_of(*branch);
@@ -169,7 +169,7 @@ std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut, const std::s
   const double rho = on ? branch->radius - spec.branch_wall : branch->radius + spec.gap;
   Proof p;
   for (const auto& h : cut.holes)
-    for (std::size_t i = 0; i < h.phi.size() && !stop.stop_requested(); ++i) {
+    for (std::size_t i = 0; i < h.phi.size() && !stopped(); ++i) {
       const auto r = row(spec, h, axis, i);
       worsen(p.root, std::abs(axis.distance(r.root) - rho));
       prove_wall(spec, h, r, i, p);
@@ -178,14 +178,14 @@ std::vector<Check> verify(const HoleSpec& spec, const HoleCut& cut, const std::s
       else
         prove_clearance(spec, h, r, axis, branch->radius, i, p);
     }
-  if (cut.branch) prove_end(spec, *branch, *cut.branch, cut.holes.front().fit, p, stop);
+  if (cut.branch) prove_end(spec, *branch, *cut.branch, cut.holes.front().fit, p);
   std::vector<Check> out{
       {"on_branch", p.root, kLength, "mm"},    {"gap", p.gap, kLength, "mm"},
       {"fit_up", p.fit, kLength, "mm"},        {"dihedral", p.dihedral, kWallAngle, "deg"},
       {"groove", p.groove, kWallAngle, "deg"}, {"tilt", p.tilt, kWallAngle, "deg"},
       {"kerf", p.kerf, kLength, "mm"},         {"branch_end", p.end, kLength, "mm"}};
-  for (auto& check : nearest_checks(spec, *branch, cut, stop)) out.push_back(std::move(check));
-  for (auto& check : torch_checks(spec, cut, stop)) out.push_back(std::move(check));
+  for (auto& check : nearest_checks(spec, *branch, cut)) out.push_back(std::move(check));
+  for (auto& check : torch_checks(spec, cut)) out.push_back(std::move(check));
   return out;
 }
 

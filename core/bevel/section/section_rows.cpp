@@ -347,16 +347,15 @@ LocalView local_view(const SectionSetup& g, const Station& at, double wall) {
           {radius - wall, at.normal.x(), at.normal.y()}};
 }
 
-Result<SectionSetup> set_up(const section::Section& section, const TableSpec& spec,
-                            const std::stop_token& stop) {
+Result<SectionSetup> set_up(const section::Section& section, const TableSpec& spec) {
   TRY(check(section, spec));
   TRY(auto cutters, grown_partners(spec));
   section::Wall wall(section);
-  TRY(auto inner, joint::trace(cutters, wall.bore(), stop));
+  TRY(auto inner, joint::trace(cutters, wall.bore()));
   // With its root on the bore the wall may pass its partners outside, as far as that is open.
   const bool outside = spec.root_surface == RootSurface::outer;
-  TRY(auto outer, outside ? joint::trace(cutters, wall.outer(), stop)
-                          : joint::trace_met(cutters, wall.outer(), stop));
+  TRY(auto outer,
+      outside ? joint::trace(cutters, wall.outer()) : joint::trace_met(cutters, wall.outer()));
   SectionSetup out{.spec = spec,
                    .wall = wall,
                    .cutters = std::move(cutters),

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/bevel/section/section_table.hpp"
@@ -31,8 +30,7 @@ struct SectionSetup {
     return root_outside() ? outside : wall.across(outside).bore;
   }
 };
-[[nodiscard]] Result<SectionSetup> set_up(const section::Section& section, const TableSpec& spec,
-                                          const std::stop_token& stop);
+[[nodiscard]] Result<SectionSetup> set_up(const section::Section& section, const TableSpec& spec);
 
 /// The angles of one row, rad.
 struct SectionPoint {

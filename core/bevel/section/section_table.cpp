@@ -5,12 +5,14 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/section/section_gaps.hpp"
 #include "core/bevel/section/section_rows.hpp"
 #include "core/bevel/section/section_surface.hpp"
 #include "core/bevel/section/section_torch.hpp"
 #include "core/bevel/table/required.hpp"
+#include "core/bevel/table/root_opens.hpp"
 #include "core/joint/section/section_intersection.hpp"
 
 namespace tubecut::bevel {
@@ -31,7 +33,7 @@ class Maker {
   explicit Maker(const SectionSetup& g)
       : g_(g), spec_(g.spec), girth_(g.wall.outer().girth()), surface_(g.wall, g.spec, out_) {}
 
-  Result<SectionTable> make(std::vector<double> also, const std::stop_token& stop) {
+  Result<SectionTable> make(std::vector<double> also) {
     TRY(make_rows(std::move(also)));
     const bool by_tolerance = spec_.sampling.tolerance.has_value();
     for (int round = 0; by_tolerance && round < kSwingRounds; ++round) {
@@ -39,10 +41,10 @@ class Maker {
       if (more.empty()) break;
       TRY(make_rows(std::move(more)));
     }
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     TRY(make_surface());
     for (int round = 0; by_tolerance && spec_.kerf > 0.0 && round < kTorchRounds; ++round) {
-      auto more = detail::places_where_drop_bends(surface_, spec_, out_, stop);
+      auto more = detail::places_where_drop_bends(surface_, spec_, out_);
       if (more.empty()) break;
       TRY(make_rows(std::move(more)));
       TRY(make_surface());
@@ -53,9 +55,9 @@ class Maker {
       TRY(make_rows(std::move(more)));
       TRY(make_surface());
     }
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     note();
-    TRY(detail::lay_torch(surface_, spec_, out_, stop));
+    TRY(detail::lay_torch(surface_, spec_, out_));
     return std::move(out_);
   }
 
@@ -326,11 +328,13 @@ class Maker {
       if (i == 0 || in.depth > out_.penetration.depth) out_.penetration = in;
     }
     out_.penetration.depth = std::max(0.0, out_.penetration.depth);
-    if (spec_.contact != Contact::none && out_.penetration.depth > penetration_limit(spec_))
+    if (!promises_no_penetration(spec_) && out_.penetration.depth > penetration_limit(spec_))
       out_.warnings.push_back({.code = WarningCode::enters_partner,
                                .member = "sampling",
                                .detail = "by up to " + brief(out_.penetration.depth) +
                                          " mm at girth " + brief(out_.penetration.s) + " mm"});
+    const auto place = [&](std::size_t i) { return "girth " + brief(out_.at[i].s) + " mm"; };
+    if (auto opens = root_opens(spec_, out_.gap, place)) out_.warnings.push_back(*std::move(opens));
     if (!spec_.sampling.tolerance && !(out_.inner_events.empty() && out_.outer_events.empty()))
       out_.warnings.push_back({.code = WarningCode::events_between_nodes,
                                .member = "sampling/uniform_points",
@@ -338,7 +342,8 @@ class Maker {
   }
 
   void note_torch_binds() {
-    const bool lifted = spec_.contact == Contact::automatic;
+    const bool lifted =
+        spec_.contact == Contact::automatic && !std::holds_alternative<SquareCut>(spec_.groove);
     const auto lost = [&](std::size_t i) {
       const auto& p = rows_.rows[i].point;
       const double rule = std::abs(p.angles.b - p.raw);
@@ -353,11 +358,12 @@ class Maker {
         one.root_gap = std::max(one.root_gap, out_.gap[i]);
       }
       out_.torch_binds.push_back(one);
-      out_.warnings.push_back({.code = WarningCode::torch_range_binds,
-                               .member = "torch",
-                               .detail = "girth " + brief(from) + " to " + brief(to) +
-                                         " mm, up to " + brief(one.groove_lost * kDegPerRad) +
-                                         " deg of groove lost"});
+      out_.warnings.push_back(
+          {.code = WarningCode::torch_range_binds,
+           .member = "torch",
+           .detail = "girth " + brief(from) + " to " + brief(to) + " mm, up to " +
+                     brief(one.groove_lost * kDegPerRad) + " deg of groove lost" +
+                     (lifted ? ", root open up to " + brief(one.root_gap) + " mm" : "")});
     }
   }
 
@@ -372,16 +378,15 @@ class Maker {
 
 }  // namespace
 
-Result<SectionTable> section_table(const section::Section& section, const TableSpec& spec,
-                                   const std::stop_token& stop) {
-  TRY(const auto g, detail::set_up(section, spec, stop));
-  TRY(auto out, Maker(g).make({}, stop));
+Result<SectionTable> section_table(const section::Section& section, const TableSpec& spec) {
+  TRY(const auto g, detail::set_up(section, spec));
+  TRY(auto out, Maker(g).make({}));
   if (!spec.untilted) return out;
   const auto bevelled = detail::flush_spec(spec);
-  TRY(const auto other, detail::set_up(section, bevelled, stop));
+  TRY(const auto other, detail::set_up(section, bevelled));
   std::vector<double> places;
   for (const auto& at : out.at) places.push_back(at.s);
-  TRY(const auto flush, Maker(other).make(std::move(places), stop));
+  TRY(const auto flush, Maker(other).make(std::move(places)));
   out.gaps.square = detail::edge_gaps(g, spec, out, out);
   out.gaps.bevelled = detail::edge_gaps(g, bevelled, flush, out);
   return out;

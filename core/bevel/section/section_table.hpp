@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/bevel/table/table.hpp"
@@ -70,13 +69,11 @@ struct SectionTable {
 /// Cost      linear in the rows, with a kerf about 1 ms each.
 /// Source    docs/theory/sections.md, sections 3 to 5.
 [[nodiscard]] Result<SectionTable> section_table(const section::Section& section,
-                                                 const TableSpec& spec,
-                                                 const std::stop_token& stop = {});
+                                                 const TableSpec& spec);
 
 /// Verifies the table from its own numbers by independent formulas: distances and normals of solids
 /// in space, differences of the smoothed angle, the beam as a cylinder.
 [[nodiscard]] std::vector<Check> verify(const section::Section& section, const TableSpec& spec,
-                                        const SectionTable& table,
-                                        const std::stop_token& stop = {});
+                                        const SectionTable& table);
 
 }  // namespace tubecut::bevel

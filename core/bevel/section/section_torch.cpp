@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/bevel/beam/beam.hpp"
 #include "core/bevel/section/section_beam.hpp"
 #include "core/math/mixed.hpp"
@@ -34,19 +35,19 @@ class Torch {
   Torch(const SectionSurface& surface, const TableSpec& spec, SectionTable& table)
       : surface_(surface), spec_(spec), table_(table) {}
 
-  void lay(const std::stop_token& stop) {
+  void lay() {
     const auto n = table_.at.size();
     drop_.assign(n, 0.0);
     if (spec_.kerf > 0.0) {
-      for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i)
+      for (std::size_t i = 0; i < n && !stopped(); ++i)
         drop_[i] = needed_drop(surface_, i, 0.0, spec_.kerf);
       std::vector<std::vector<Need>> all;
-      for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i)
+      for (std::size_t i = 0; i < n && !stopped(); ++i)
         if (surface_.width(i) > 0.0) all.push_back(needs(i));
       for (const auto& gap : all) lower(gap);
     }
     write();
-    if (spec_.kerf > 0.0) spare(stop);
+    if (spec_.kerf > 0.0) spare();
   }
 
  private:
@@ -142,12 +143,12 @@ class Torch {
   }
 
   /// Lowers the rows where the beam, as a cylinder, still enters the part.
-  void spare(const std::stop_token& stop) {
+  void spare() {
     auto& out = table_.torch_line;
     for (int round = 0; round < kSpared; ++round) {
       out = {};
       std::vector<Need> entered;
-      for (std::size_t i = 0; i < table_.at.size() && !stop.stop_requested(); ++i)
+      for (std::size_t i = 0; i < table_.at.size() && !stopped(); ++i)
         for (const double share : kLooked) {
           if (share > 0.0 && !(surface_.width(i) > 0.0)) continue;
           const auto line = surface_.line(i, share);
@@ -175,13 +176,12 @@ class Torch {
 }  // namespace
 
 std::vector<double> places_where_drop_bends(const SectionSurface& surface, const TableSpec& spec,
-                                            const SectionTable& table,
-                                            const std::stop_token& stop) {
+                                            const SectionTable& table) {
   std::vector<double> out, drop;
   const auto n = table.at.size();
-  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i)
+  for (std::size_t i = 0; i < n && !stopped(); ++i)
     drop.push_back(needed_drop(surface, i, 0.0, spec.kerf));
-  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < n && !stopped(); ++i) {
     if (surface.width(i) < kNarrow) continue;
     const double straight = 0.5 * (drop[i] + drop[surface.next(i)]);
     if (std::abs(needed_drop(surface, i, 0.5, spec.kerf) - straight) >
@@ -191,10 +191,9 @@ std::vector<double> places_where_drop_bends(const SectionSurface& surface, const
   return out;
 }
 
-Result<void> lay_torch(const SectionSurface& surface, const TableSpec& spec, SectionTable& table,
-                       const std::stop_token& stop) {
-  Torch(surface, spec, table).lay(stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+Result<void> lay_torch(const SectionSurface& surface, const TableSpec& spec, SectionTable& table) {
+  Torch(surface, spec, table).lay();
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   const auto& beam = table.torch_line;
   if (!(beam.gouge > 0.5 * kGougeLimit)) return {};
   return fail({.code = ErrorCode::out_of_range,

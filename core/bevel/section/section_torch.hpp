@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <vector>
 
 #include "core/bevel/section/section_surface.hpp"
@@ -13,13 +12,12 @@ inline constexpr double kNarrow = 1e-4;  // mm: no rows nearer to each other
 /// its rows by more than the sampling's tolerance. Incomplete if cancelled.
 [[nodiscard]] std::vector<double> places_where_drop_bends(const SectionSurface& surface,
                                                           const TableSpec& spec,
-                                                          const SectionTable& table,
-                                                          const std::stop_token& stop);
+                                                          const SectionTable& table);
 
 /// Fills the torch's axis by row and `torch_line`. The drop is straight from row to row, so rows
 /// are lowered if it would fall short between them.
 /// Errors  out_of_range (kerf): the beam enters the finished part all the same; cancelled.
 [[nodiscard]] Result<void> lay_torch(const SectionSurface& surface, const TableSpec& spec,
-                                     SectionTable& table, const std::stop_token& stop);
+                                     SectionTable& table);
 
 }  // namespace tubecut::bevel::detail

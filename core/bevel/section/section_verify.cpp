@@ -5,6 +5,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/bevel/beam/beam.hpp"
 #include "core/bevel/section/section_beam.hpp"
 #include "core/bevel/section/section_rows.hpp"
@@ -32,14 +33,8 @@ constexpr double kSilhouette = 1e-5;   // axial part of the normal below which a
 /// Checks one table from its own numbers.
 class Proof {
  public:
-  Proof(const section::Section& section, const TableSpec& spec, const SectionTable& table,
-        std::stop_token stop)
-      : section_(section),
-        wall_(section),
-        spec_(spec),
-        t_(table),
-        surface_(wall_, spec, table),
-        stop_(std::move(stop)) {
+  Proof(const section::Section& section, const TableSpec& spec, const SectionTable& table)
+      : section_(section), wall_(section), spec_(spec), t_(table), surface_(wall_, spec, table) {
     if (const auto cutters = grown_partners(spec))
       for (const auto& cutter : *cutters) solids_.emplace_back(cutter);
   }
@@ -48,7 +43,7 @@ class Proof {
     std::vector<Check> out;
     double on = 0.0, dihedral = 0.0, plane = 0.0, below = 0.0, beyond = 0.0, deep = 0.0;
     double touch = 0.0;
-    for (std::size_t i = 0; i < t_.at.size() && !stop_.stop_requested(); ++i) {
+    for (std::size_t i = 0; i < t_.at.size() && !stopped(); ++i) {
       worsen(on, off_outlines(i));
       worsen(dihedral, off_dihedral(i));
       worsen(plane, off_plane(i));
@@ -206,7 +201,7 @@ class Proof {
   [[nodiscard]] double sampled_depth() const {
     constexpr double kGolden = 0.6180339887498949;
     double seed = 0.0, deep = 0.0;
-    for (std::size_t i = 0; i < t_.at.size() && !stop_.stop_requested(); ++i)
+    for (std::size_t i = 0; i < t_.at.size() && !stopped(); ++i)
       for (int k = 0; k < 6; ++k) {
         seed += kGolden;
         seed -= std::floor(seed);
@@ -241,7 +236,7 @@ class Proof {
   /// The beam as a cylinder about the stated axis, at and between rows.
   void torch_checks(std::vector<Check>& out) const {
     double gouge = 0.0;
-    for (std::size_t i = 0; i < t_.at.size() && !stop_.stop_requested(); ++i)
+    for (std::size_t i = 0; i < t_.at.size() && !stopped(); ++i)
       for (const double share : {0.0, 0.13, 0.44, 0.62, 0.88})
         if (share == 0.0 || surface_.width(i) > 0.0)
           worsen(gouge, beam_depth(surface_, t_, i, share, spec_.kerf));
@@ -255,15 +250,14 @@ class Proof {
   const TableSpec& spec_;
   const SectionTable& t_;
   SectionSurface surface_;
-  std::stop_token stop_;
   std::vector<joint::Solid> solids_;
 };
 
 }  // namespace
 
 std::vector<Check> verify(const section::Section& section, const TableSpec& spec,
-                          const SectionTable& table, const std::stop_token& stop) {
-  return Proof(section, spec, table, stop).checks();
+                          const SectionTable& table) {
+  return Proof(section, spec, table).checks();
 }
 
 }  // namespace tubecut::bevel

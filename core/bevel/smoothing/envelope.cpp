@@ -2,6 +2,7 @@
 #include <string>
 
 #include "core/base/angle.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/smoothing/braking_envelope.hpp"
 #include "core/bevel/smoothing/least_area.hpp"
@@ -37,13 +38,12 @@ Result<void> check_limits(const AngleProfile& profile, const EnvelopeSpec& spec)
 
 }  // namespace
 
-Result<Envelope> envelope(const AngleProfile& profile, const EnvelopeSpec& spec,
-                          const std::stop_token& stop) {
+Result<Envelope> envelope(const AngleProfile& profile, const EnvelopeSpec& spec) {
   TRY(check_profile(profile));
   TRY(check_limits(profile, spec));
   if (!spec.refine) return Envelope{.b = braking_envelope(profile, spec), .multipliers = {}};
-  if (auto least = least_envelope(profile, spec, stop)) return std::move(*least);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (auto least = least_envelope(profile, spec)) return std::move(*least);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   return Envelope{.b = braking_envelope(profile, spec), .multipliers = no_multipliers(profile)};
 }
 

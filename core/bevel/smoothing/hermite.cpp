@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/base/angle.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/smoothing/smoothing.hpp"
 
@@ -118,8 +119,7 @@ std::vector<std::size_t> junctions_of(const std::vector<double>& b, const Hermit
 
 }  // namespace
 
-Result<HermiteSmoothed> hermite(const AngleProfile& profile, const HermiteSpec& spec,
-                                std::stop_token stop) {
+Result<HermiteSmoothed> hermite(const AngleProfile& profile, const HermiteSpec& spec) {
   TRY(check(profile, spec));
   const auto n = profile.b.size();
   const double spacing = profile.period / static_cast<double>(n);
@@ -128,7 +128,7 @@ Result<HermiteSmoothed> hermite(const AngleProfile& profile, const HermiteSpec& 
   while (true) {
     const auto left = mutations(out.b, spec.limit);
     if (left.empty()) return out;
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     const auto worst = largest(left);
     if (out.windows.size() == kMostWindows)
       return fail({.code = ErrorCode::smoothing_not_converged,

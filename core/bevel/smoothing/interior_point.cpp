@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/lanes.hpp"
+#include "core/base/stop.hpp"
 #include "core/bevel/smoothing/least_area.hpp"
 #include "core/bevel/smoothing/ring_newton.hpp"
 
@@ -63,7 +64,7 @@ class InteriorPoint {
   InteriorPoint(const Programme& p, bool limited);
 
   /// Returns false when cancelled or not converged.
-  [[nodiscard]] bool solve(const std::stop_token& stop);
+  [[nodiscard]] bool solve();
 
   /// Returns heights in rad, each the one before plus its slope, at least B.
   [[nodiscard]] Array heights() const;
@@ -74,7 +75,7 @@ class InteriorPoint {
   /// Makes Mehrotra's step: the step to the optimum itself determines the target product and the
   /// correction. The first one touches all memory and may take 20 ms for 20 000 nodes if pages are
   /// slow, so cancellation is checked within a step too. If cancelled, nobody reads the result.
-  TUBECUT_INLINE void step(const std::stop_token& stop);
+  TUBECUT_INLINE void step();
 
  private:
   static constexpr int kArcs = PackOf<Numbers>::kSize;
@@ -308,31 +309,29 @@ void InteriorPoint<Numbers>::go(double kept) {
 }
 
 template <class Numbers>
-void InteriorPoint<Numbers>::step(const std::stop_token& stop) {
+void InteriorPoint<Numbers>::step() {
   factor();
-  if (stop.stop_requested()) return;
+  if (stopped()) return;
   aim_at(aim());
-  if (stop.stop_requested()) return;
+  if (stopped()) return;
   go(std::max(kKeptShare, 1.0 - gap_ / area_));
 }
 
-TUBECUT_WIDE TUBECUT_WHOLE void step(InteriorPoint<Pack>& point, const std::stop_token& stop) {
-  point.step(stop);
-}
+TUBECUT_WIDE TUBECUT_WHOLE void step(InteriorPoint<Pack>& point) { point.step(); }
 template <class Real>
-void step(InteriorPoint<Real>& point, const std::stop_token& stop) {
-  point.step(stop);
+void step(InteriorPoint<Real>& point) {
+  point.step();
 }
 
 template <class Numbers>
-bool InteriorPoint<Numbers>::solve(const std::stop_token& stop) {
-  if (stop.stop_requested()) return false;
+bool InteriorPoint<Numbers>::solve() {
+  if (stopped()) return false;
   begin();
-  for (int i = 0; i < kMostSteps && !stop.stop_requested(); ++i) {
+  for (int i = 0; i < kMostSteps && !stopped(); ++i) {
     if (!std::isfinite(gap_)) return false;
     if (gap_ <= kNear * (area_ + kSmall)) keep_best();
     if (gap_ <= kGap * (area_ + kSmall) && lack_ <= kGap) return true;
-    bevel::step(*this, stop);
+    bevel::step(*this);
     if (kArcs > 1 && std::max(far_, far_dual_) > kLost) return false;
   }
   return false;
@@ -377,16 +376,13 @@ Array InteriorPoint<Numbers>::contacts() const {
 }  // namespace
 
 template <class Numbers>
-std::optional<Least> interior_point(const Programme& programme, bool limited,
-                                    const std::stop_token& stop) {
+std::optional<Least> interior_point(const Programme& programme, bool limited) {
   InteriorPoint<Numbers> point(programme, limited);
-  if (!point.solve(stop)) return std::nullopt;
+  if (!point.solve()) return std::nullopt;
   return Least{point.heights(), point.multipliers()};
 }
-template std::optional<Least> interior_point<Pack>(const Programme&, bool, const std::stop_token&);
-template std::optional<Least> interior_point<double>(const Programme&, bool,
-                                                     const std::stop_token&);
-template std::optional<Least> interior_point<long double>(const Programme&, bool,
-                                                          const std::stop_token&);
+template std::optional<Least> interior_point<Pack>(const Programme&, bool);
+template std::optional<Least> interior_point<double>(const Programme&, bool);
+template std::optional<Least> interior_point<long double>(const Programme&, bool);
 
 }  // namespace tubecut::bevel

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <stop_token>
 
 #include "core/bevel/smoothing/programme.hpp"
 
@@ -21,7 +20,6 @@ struct Least {
 /// double has more digits.
 /// Source  Mehrotra, SIAM J. Optim. 2 (1992) 575; docs/theory/intersections-and-bevels.md, 6.3.
 template <class Numbers>
-[[nodiscard]] std::optional<Least> interior_point(const Programme& programme, bool limited,
-                                                  const std::stop_token& stop);
+[[nodiscard]] std::optional<Least> interior_point(const Programme& programme, bool limited);
 
 }  // namespace tubecut::bevel

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/pack.hpp"
+#include "core/base/stop.hpp"
 #include "core/bevel/smoothing/interior_point.hpp"
 #include "core/bevel/smoothing/least_area.hpp"
 
@@ -48,11 +49,11 @@ bool proved(const AngleProfile& profile, const EnvelopeSpec& spec, const Envelop
 
 template <class Numbers>
 std::optional<Envelope> solved(const AngleProfile& profile, const EnvelopeSpec& spec,
-                               const Programme& p, const std::stop_token& stop) {
+                               const Programme& p) {
   // Few profiles come near the limit, so the programme without it comes first: it is smaller and
   // proves as much.
   for (const bool limited : {false, true}) {
-    const auto least = interior_point<Numbers>(p, limited, stop);
+    const auto least = interior_point<Numbers>(p, limited);
     if (!least || (!limited && least->heights.maxCoeff() > spec.highest)) continue;
     return Envelope{.b = touching(profile, spec, p, least->heights),
                     .multipliers = least->multipliers};
@@ -62,16 +63,15 @@ std::optional<Envelope> solved(const AngleProfile& profile, const EnvelopeSpec& 
 
 }  // namespace
 
-std::optional<Envelope> least_envelope(const AngleProfile& profile, const EnvelopeSpec& spec,
-                                       const std::stop_token& stop) {
+std::optional<Envelope> least_envelope(const AngleProfile& profile, const EnvelopeSpec& spec) {
   if (keeps_limits(profile, spec.limits)) return Envelope{profile.b, no_multipliers(profile)};
-  if (stop.stop_requested()) return std::nullopt;
+  if (stopped()) return std::nullopt;
   const Programme p(profile, spec);
-  if (stop.stop_requested()) return std::nullopt;
+  if (stopped()) return std::nullopt;
   std::optional<Envelope> found;
   for (const auto solve : {solved<Pack>, solved<double>, solved<long double>}) {
-    found = solve(profile, spec, p, stop);
-    if (stop.stop_requested() || (found && proved(profile, spec, *found))) break;
+    found = solve(profile, spec, p);
+    if (stopped() || (found && proved(profile, spec, *found))) break;
   }
   if (found && !keeps_limits({profile.s, found->b, profile.period}, spec.limits)) found.reset();
   return found;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 
 #include "core/bevel/smoothing/smoothing.hpp"
 
@@ -17,7 +16,6 @@ namespace tubecut::bevel {
 /// Cost      linear a step; 11 steps at the median of real nodes, 17 at most.
 /// Source    docs/theory/intersections-and-bevels.md, section 6.3.
 [[nodiscard]] std::optional<Envelope> least_envelope(const AngleProfile& profile,
-                                                     const EnvelopeSpec& spec,
-                                                     const std::stop_token& stop);
+                                                     const EnvelopeSpec& spec);
 
 }  // namespace tubecut::bevel

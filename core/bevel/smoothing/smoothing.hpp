@@ -18,7 +18,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -105,10 +104,9 @@ struct Envelope {
 /// Errors    wrong_count, not_finite, out_of_range (order, period, limits, a B above `highest`),
 ///           cancelled.
 /// Cost      linear without `refine`; with it each step of the search is linear, and 20 000 nodes
-///           take some 30 steps. Every step checks `stop`.
+///           take some 30 steps. Every step checks `stopped()`.
 /// Source    docs/theory/intersections-and-bevels.md, sections 6.2 and 6.3.
-[[nodiscard]] Result<Envelope> envelope(const AngleProfile& profile, const EnvelopeSpec& spec,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] Result<Envelope> envelope(const AngleProfile& profile, const EnvelopeSpec& spec);
 
 struct HermiteSpec {
   double limit = 0.0;             // rad, steps above it are treated, > 0
@@ -145,8 +143,7 @@ struct HermiteSmoothed {
 ///         of its own fits), cancelled.
 /// Cost    linear in the samples for each window, at most 200 windows.
 /// Source  section 6.1.
-[[nodiscard]] Result<HermiteSmoothed> hermite(const AngleProfile& profile, const HermiteSpec& spec,
-                                              std::stop_token stop = {});
+[[nodiscard]] Result<HermiteSmoothed> hermite(const AngleProfile& profile, const HermiteSpec& spec);
 
 /// Checks the preconditions on a profile that both methods share: counts, finite, ascending within
 /// the period.

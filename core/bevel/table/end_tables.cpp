@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 
 namespace tubecut::bevel {
@@ -14,7 +15,7 @@ bool fails_whole_request(ErrorCode code) {
 }
 
 Result<EndTable> end_table(const joint::NodeSpec& spec, const joint::MemberEnd& end,
-                           const TableSpec& asked, const std::stop_token& stop) {
+                           const TableSpec& asked) {
   auto joint = joint::joint_of(spec, end);
   EndTable out{.spec = asked, .table = {}, .refused = {}};
   out.spec.target = joint.target;
@@ -31,9 +32,9 @@ Result<EndTable> end_table(const joint::NodeSpec& spec, const joint::MemberEnd& 
     return {};
   };
   if (out.section)
-    TRY(keep(section_table(*out.section, out.spec, stop), out.of_section));
+    TRY(keep(section_table(*out.section, out.spec), out.of_section));
   else
-    TRY(keep(table(out.spec, stop), out.table));
+    TRY(keep(table(out.spec), out.table));
   return out;
 }
 
@@ -90,7 +91,6 @@ class SharedNodes {
 Result<std::vector<std::optional<EndTable>>> end_tables(const joint::NodeSpec& spec,
                                                         const joint::Nodes& nodes,
                                                         const TableSpec& asked,
-                                                        const std::stop_token& stop,
                                                         const Turns& turns) {
   TRY(check_groove(asked.groove));
   std::vector<std::size_t> cut;
@@ -102,16 +102,15 @@ Result<std::vector<std::optional<EndTable>>> end_tables(const joint::NodeSpec& s
   for (std::size_t from = 0; from < cut.size();) {
     std::vector<std::optional<Result<EndTable>>> made(std::min(shared.tables(), cut.size() - from));
     turns(made.size(), [&](std::size_t k) {
-      if (!stop.stop_requested())
-        made[k] = end_table(spec, nodes.ends[cut[from + k]], shared.left(), stop);
+      if (!stopped()) made[k] = end_table(spec, nodes.ends[cut[from + k]], shared.left());
     });
     for (auto& one : made) {
-      if (stop.stop_requested() || !one) return fail({.code = ErrorCode::cancelled});
+      if (stopped() || !one) return fail({.code = ErrorCode::cancelled});
       const auto end = cut[from++];
       // If a table needs more nodes than those before it left, compute it again with the remaining
       // nodes, as in a sequential run.
       if (&one != made.data() && (!*one || !shared.has(**one)))
-        one = end_table(spec, nodes.ends[end], shared.left(), stop);
+        one = end_table(spec, nodes.ends[end], shared.left());
       TRY(auto table, *std::move(one));
       TRY(out[end], shared.take(std::move(table)));
     }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/turns.hpp"
@@ -29,6 +28,6 @@ struct EndTable {
 ///         all ends together), cancelled.
 [[nodiscard]] Result<std::vector<std::optional<EndTable>>> end_tables(
     const joint::NodeSpec& spec, const joint::Nodes& nodes, const TableSpec& asked,
-    const std::stop_token& stop = {}, const Turns& turns = in_order);
+    const Turns& turns = in_order);
 
 }  // namespace tubecut::bevel

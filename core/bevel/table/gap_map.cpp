@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/bevel/table/table_parts.hpp"
 #include "core/joint/solid.hpp"
 #include "core/math/mixed.hpp"
@@ -79,8 +80,7 @@ TableSpec flush_of(const TableSpec& spec) {
   return out;
 }
 
-GapMap gap_map(const TableSetup& g, const Table& cut, const Table& flush,
-               const std::stop_token& stop) {
+GapMap gap_map(const TableSetup& g, const Table& cut, const Table& flush) {
   GapMap out;
   const Heights bevel(flush);
   const auto see = [&](double phi, double inner, double outer, EdgeGaps& to) {
@@ -91,7 +91,7 @@ GapMap gap_map(const TableSetup& g, const Table& cut, const Table& flush,
     to.inner.push_back(at(g.wall.inner, inner));
     to.outer.push_back(at(g.wall.outer, outer));
   };
-  for (std::size_t i = 0; i < cut.phi.size() && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < cut.phi.size() && !stopped(); ++i) {
     const bool second = i > 0 && cut.phi[i - 1] == cut.phi[i];
     const auto other = bevel.at(cut.phi[i], second);
     see(cut.phi[i], cut.z_inner[i], cut.z_outer[i], out.square);

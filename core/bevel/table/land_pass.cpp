@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/beam/torch_line.hpp"
 #include "core/bevel/table/table_parts.hpp"
@@ -20,7 +21,7 @@ Issue no_pass(const char* why, double phi) {
 
 }  // namespace
 
-Result<Table> land_pass(const TableSpec& spec, const Table& table, const std::stop_token& stop) {
+Result<Table> land_pass(const TableSpec& spec, const Table& table) {
   auto alone = spec;
   alone.root_face = 0.0;
   auto out = table;
@@ -36,10 +37,10 @@ Result<Table> land_pass(const TableSpec& spec, const Table& table, const std::st
     if (out.z_outer[i] > table.z_outer[i] + kEven * wall)
       return fail(no_pass("the land leans further into the part than the bevel", out.phi[i]));
   }
-  const auto line = torch_line(alone, out, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  detail::fill_torch(alone, line.drops, out, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  const auto line = torch_line(alone, out);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
+  detail::fill_torch(alone, line.drops, out);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   TRY(check_spared(beam_cut(alone, out), out.torch_line));
   return out;
 }

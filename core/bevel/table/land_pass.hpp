@@ -1,7 +1,5 @@
 #pragma once
 
-#include <stop_token>
-
 #include "core/bevel/table/table.hpp"
 
 namespace tubecut::bevel {
@@ -15,7 +13,6 @@ namespace tubecut::bevel {
 ///         than the bevel, so that its pass would enter the finished part; out_of_range (kerf);
 ///         cancelled.
 /// Source  docs/theory/intersections-and-bevels.md, sections 5.5 and 5.6.
-[[nodiscard]] Result<Table> land_pass(const TableSpec& spec, const Table& table,
-                                      const std::stop_token& stop = {});
+[[nodiscard]] Result<Table> land_pass(const TableSpec& spec, const Table& table);
 
 }  // namespace tubecut::bevel

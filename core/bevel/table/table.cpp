@@ -4,6 +4,7 @@
 #include <functional>
 #include <type_traits>
 
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/beam/torch_line.hpp"
 #include "core/bevel/table/table_parts.hpp"
@@ -84,52 +85,50 @@ struct Draft {
 };
 
 /// Adds rows, and computes B on all rows.
-Result<void> smooth(const TableSetup& g, const std::vector<double>& more, Draft& draft,
-                    const std::stop_token& stop) {
+Result<void> smooth(const TableSetup& g, const std::vector<double>& more, Draft& draft) {
   draft.also.insert(draft.also.end(), more.begin(), more.end());
-  TRY(draft.rows, detail::rows(g, draft.also, draft.rows, stop));
+  TRY(draft.rows, detail::rows(g, draft.also, draft.rows));
   TRY(detail::check_required_in_torch_range(g, draft.rows));
   draft.table = outline(g, draft.rows);
   fill_angles(g, draft.rows, draft.table);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   TRY(fill_zones(g.spec, draft.rows, draft.table));
-  return detail::fill_smoothed(g, draft.rows, draft.table, stop);
+  return detail::fill_smoothed(g, draft.rows, draft.table);
 }
 
 /// Computes the finished surface on the draft's rows.
-Result<void> surface(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
-  detail::fill_surfaces(g, draft.rows, draft.table, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  TRY(detail::check_clearance(g, draft.rows, draft.table, stop));
+Result<void> surface(const TableSetup& g, Draft& draft) {
+  detail::fill_surfaces(g, draft.rows, draft.table);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
+  TRY(detail::check_clearance(g, draft.rows, draft.table));
   for (const auto* z : {&draft.table.z_inner, &draft.table.z_outer})
     TRY(joint::check_length(g.spec.target, *z));
   return {};
 }
 
-Result<void> add(const TableSetup& g, const std::vector<double>& more, Draft& draft,
-                 const std::stop_token& stop) {
-  TRY(smooth(g, more, draft, stop));
-  return surface(g, draft, stop);
+Result<void> add(const TableSetup& g, const std::vector<double>& more, Draft& draft) {
+  TRY(smooth(g, more, draft));
+  return surface(g, draft);
 }
 
 /// Adds rows where the root goes from one zone's gap to another's.
-Result<void> follow_gaps(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
+Result<void> follow_gaps(const TableSetup& g, Draft& draft) {
   constexpr int kRounds = 12;  // of halving
   for (int round = 0; round < kRounds; ++round) {
     const auto more = detail::rows_where_gap_turns(g, draft.rows);
     if (more.empty()) break;
-    TRY(smooth(g, more, draft, stop));
+    TRY(smooth(g, more, draft));
   }
   return {};
 }
 
 /// Adds rows where B turns; only B determines them.
-Result<void> follow_swing(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
+Result<void> follow_swing(const TableSetup& g, Draft& draft) {
   constexpr int kRounds = 6;  // of halving
   for (int round = 0; round < kRounds; ++round) {
     const auto more = detail::rows_where_b_turns(g.spec, draft.table);
     if (more.empty()) break;
-    TRY(smooth(g, more, draft, stop));
+    TRY(smooth(g, more, draft));
   }
   return {};
 }
@@ -137,28 +136,26 @@ Result<void> follow_swing(const TableSetup& g, Draft& draft, const std::stop_tok
 /// Adds rows where the torch's line bends; returns the line if it belongs to the draft. After the
 /// first round it can bend anew only near the last added rows, because elsewhere only B moves, and
 /// by little.
-Result<std::optional<TorchLine>> follow_torch(const TableSetup& g, Draft& draft,
-                                              const std::stop_token& stop) {
+Result<std::optional<TorchLine>> follow_torch(const TableSetup& g, Draft& draft) {
   constexpr int kRounds = 3;  // the second covers the changes by the first's own rows
-  auto line = torch_line(g.spec, draft.table, stop);
+  auto line = torch_line(g.spec, draft.table);
   if (line.rows.empty()) return line;
   for (int round = 0; round < kRounds && !line.rows.empty(); ++round) {
-    TRY(add(g, line.rows, draft, stop));
+    TRY(add(g, line.rows, draft));
     if (round + 1 == kRounds) break;
-    line = torch_line(g.spec, draft.table, ways_near(g.spec, draft.table, line.rows), stop);
+    line = torch_line(g.spec, draft.table, ways_near(g.spec, draft.table, line.rows));
   }
   return std::nullopt;
 }
 
 /// Adds rows where the finished wall enters a partner between rows; returns true if it added any.
-Result<bool> follow_partners(const TableSetup& g, Draft& draft, const std::stop_token& stop) {
+Result<bool> follow_partners(const TableSetup& g, Draft& draft) {
   if (!promises_no_penetration(g.spec)) return false;
   constexpr int kRounds = 10;  // each divides a depth by sixteen if the cut is smooth
   for (int round = 0; round < kRounds; ++round) {
-    const auto more =
-        detail::entering_phases(g, draft.table, g.spec.sampling.tolerance->value, stop);
+    const auto more = detail::entering_phases(g, draft.table, g.spec.sampling.tolerance->value);
     if (more.empty()) return round > 0;
-    TRY(add(g, more, draft, stop));
+    TRY(add(g, more, draft));
   }
   return true;
 }
@@ -172,33 +169,33 @@ void note(const TableSetup& g, Draft& draft) {
 
 /// Computes the gaps of an untilted cut, and those of a bevelled cut with the same rows for
 /// comparison.
-Result<void> map_gaps(const TableSetup& g, Table& out, const std::stop_token& stop) {
+Result<void> map_gaps(const TableSetup& g, Table& out) {
   const auto bevelled = detail::flush_of(g.spec);
-  TRY(const auto other, detail::set_up(bevelled, stop));
+  TRY(const auto other, detail::set_up(bevelled));
   Draft flush;
-  TRY(add(other, out.phi, flush, stop));
-  out.gaps = detail::gap_map(g, out, flush.table, stop);
+  TRY(add(other, out.phi, flush));
+  out.gaps = detail::gap_map(g, out, flush.table);
   return {};
 }
 
 }  // namespace
 
-Result<Table> table(const TableSpec& spec, const std::stop_token& stop) {
-  TRY(const auto g, detail::set_up(spec, stop));
+Result<Table> table(const TableSpec& spec) {
+  TRY(const auto g, detail::set_up(spec));
   Draft draft;
-  TRY(smooth(g, g.row_phases, draft, stop));
-  TRY(follow_gaps(g, draft, stop));
-  TRY(follow_swing(g, draft, stop));
-  TRY(surface(g, draft, stop));
-  TRY(auto line, follow_torch(g, draft, stop));
-  TRY(const bool added, follow_partners(g, draft, stop));
+  TRY(smooth(g, g.row_phases, draft));
+  TRY(follow_gaps(g, draft));
+  TRY(follow_swing(g, draft));
+  TRY(surface(g, draft));
+  TRY(auto line, follow_torch(g, draft));
+  TRY(const bool added, follow_partners(g, draft));
   note(g, draft);
   auto& out = draft.table;
-  detail::state_penetration(g, out, stop);
-  if (spec.untilted) TRY(map_gaps(g, out, stop));
-  if (!line || added) line = torch_line(spec, out, stop);
-  detail::fill_torch(spec, line->drops, out, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  detail::state_penetration(g, out);
+  if (spec.untilted) TRY(map_gaps(g, out));
+  if (!line || added) line = torch_line(spec, out);
+  detail::fill_torch(spec, line->drops, out);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   TRY(check_spared(beam_cut(spec, out), out.torch_line));
   return std::move(out);
 }

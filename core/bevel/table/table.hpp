@@ -17,7 +17,6 @@
 //     const double b = table.b[90] * kDegPerRad;  // deg, at phi = 90 deg: 15.0
 
 #include <optional>
-#include <stop_token>
 #include <variant>
 #include <vector>
 
@@ -148,7 +147,7 @@ struct Table {
 ///           transition_too_long, unsupported_combination, too_many_nodes, cancelled.
 /// Accuracy  `penetration` is exact within 3e-4 mm, by an enclosure.
 /// Source    docs/theory/intersections-and-bevels.md, sections 2, 5 and 6.
-[[nodiscard]] Result<Table> table(const TableSpec& spec, const std::stop_token& stop = {});
+[[nodiscard]] Result<Table> table(const TableSpec& spec);
 
 /// Errors  wrong_count, out_of_range (groove/zones/i).
 [[nodiscard]] Result<void> check_groove(const GrooveRule& groove);
@@ -169,7 +168,6 @@ struct Table {
 
 /// Verifies the table from its own numbers by independent formulas: 3D distances, normals from
 /// gradients, half tangents.
-[[nodiscard]] std::vector<Check> verify(const TableSpec& spec, const Table& table,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Check> verify(const TableSpec& spec, const Table& table);
 
 }  // namespace tubecut::bevel

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -33,13 +32,12 @@ struct TableSetup {
 
   [[nodiscard]] const joint::Contour& inner_contour() const { return inner ? *inner : root; }
 };
-[[nodiscard]] Result<TableSetup> set_up(const TableSpec& spec, const std::stop_token& stop);
+[[nodiscard]] Result<TableSetup> set_up(const TableSpec& spec);
 
 /// Returns the same end, flush, for comparison: root inside, lifted where the torch ends, no kerf.
 [[nodiscard]] TableSpec flush_of(const TableSpec& spec);
 /// Computes the distances of both edges to the partners, of this table and of the flush one.
-[[nodiscard]] GapMap gap_map(const TableSetup& g, const Table& cut, const Table& flush,
-                             const std::stop_token& stop);
+[[nodiscard]] GapMap gap_map(const TableSetup& g, const Table& cut, const Table& flush);
 
 /// One side of one node before smoothing. Angles in rad.
 struct Point {
@@ -68,7 +66,7 @@ struct Rows {
 ///
 /// Errors  too_many_nodes, cancelled.
 [[nodiscard]] Result<Rows> rows(const TableSetup& g, const std::vector<double>& also,
-                                const Rows& known, const std::stop_token& stop);
+                                const Rows& known);
 
 /// Returns the zones of a groove that have root gaps of their own, else nullptr.
 [[nodiscard]] const ZonedGroove* zones_with_gaps(const TableSpec& spec);
@@ -121,8 +119,7 @@ template <class F>
 /// Fills mutations, windows and B of the table.
 ///
 /// Errors  those of the chosen smoothing.
-[[nodiscard]] Result<void> fill_smoothed(const TableSetup& g, const Rows& rows, Table& out,
-                                         const std::stop_token& stop);
+[[nodiscard]] Result<void> fill_smoothed(const TableSetup& g, const Rows& rows, Table& out);
 /// If B is required beyond the torch, returns an error with the root gap that a lift would open.
 [[nodiscard]] Result<void> check_required_in_torch_range(const TableSetup& g, const Rows& rows);
 /// Returns the phases of rows that a table smoothed by the envelope still lacks. They are needed
@@ -135,19 +132,17 @@ template <class F>
 [[nodiscard]] std::vector<double> rows_where_b_turns(const TableSpec& spec, const Table& table);
 
 /// Computes finished surface, root opening and metal in the beam.
-void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std::stop_token& stop);
+void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out);
 /// Computes the torch's own line, at these drops below the rows, and its gouges and rests.
-void fill_torch(const TableSpec& spec, const std::vector<double>& drops, Table& out,
-                const std::stop_token& stop);
+void fill_torch(const TableSpec& spec, const std::vector<double>& drops, Table& out);
 /// For contact outer, checks that the cut is clear of every partner across the wall.
-[[nodiscard]] Result<void> check_clearance(const TableSetup& g, const Rows& rows, const Table& out,
-                                           const std::stop_token& stop);
+[[nodiscard]] Result<void> check_clearance(const TableSetup& g, const Rows& rows, const Table& out);
 /// Returns the phases of rows that are needed in the gaps in which the finished wall may enter a
 /// partner by more than `tolerance`, because the contours of the walls do not show where it curves.
 [[nodiscard]] std::vector<double> entering_phases(const TableSetup& g, const Table& t,
-                                                  double tolerance, const std::stop_token& stop);
+                                                  double tolerance);
 /// Computes the depth of the finished wall in partners; warns unless the mode limits it.
-void state_penetration(const TableSetup& g, Table& out, const std::stop_token& stop);
+void state_penetration(const TableSetup& g, Table& out);
 
 /// Reports where the groove rule or the root yielded to the torch's range, and by how much.
 void note_torch_binds(const TableSetup& g, const Rows& rows, Table& out);

@@ -2,6 +2,7 @@
 #include <span>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/beam/beam.hpp"
 #include "core/bevel/beam/torch_line.hpp"
@@ -82,12 +83,11 @@ Result<void> check(const TableSpec& spec) {
 
 /// Returns events that are no rows of the root's own contour: of the other wall, and of the land's
 /// edge.
-std::vector<double> row_phases(const TableSetup& g, const std::stop_token& stop) {
+std::vector<double> row_phases(const TableSetup& g) {
   std::vector<double> out;
   for (const auto& event : g.other.events) out.push_back(event.phi);
   if (g.spec.root_face > 0.0)
-    for (const auto& event :
-         joint::divide(g.root.cutters, g.wall.inner + g.spec.root_face, stop).events)
+    for (const auto& event : joint::divide(g.root.cutters, g.wall.inner + g.spec.root_face).events)
       out.push_back(event.phi);
   return out;
 }
@@ -220,12 +220,12 @@ std::vector<std::size_t> take_over(const Rows& known, Rows& rows) {
 
 }  // namespace
 
-Result<TableSetup> set_up(const TableSpec& spec, const std::stop_token& stop) {
+Result<TableSetup> set_up(const TableSpec& spec) {
   TRY(check(spec));
   TRY(auto cutters, grown_partners(spec));
   const Wall wall{spec.target.inner_radius(), spec.target.outer_radius};
   const bool outer = spec.root_surface == RootSurface::outer;
-  TRY(auto root, joint::trace(cutters, outer ? wall.outer : wall.inner, stop));
+  TRY(auto root, joint::trace(cutters, outer ? wall.outer : wall.inner));
   TableSetup out{.spec = spec,
                  .cutters = std::move(cutters),
                  .root = std::move(root),
@@ -238,12 +238,12 @@ Result<TableSetup> set_up(const TableSpec& spec, const std::stop_token& stop) {
                  .flush = Rule(NoGroove{}, spec.dihedral),
                  .gaps = {}};
   if (const auto* zoned = zones_with_gaps(spec)) out.gaps = Zones(*zoned);
-  out.other = joint::divide(out.root.cutters, outer ? wall.inner : wall.outer, stop);
-  out.row_phases = row_phases(out, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  out.other = joint::divide(out.root.cutters, outer ? wall.inner : wall.outer);
+  out.row_phases = row_phases(out);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   for (const auto& cutter : out.cutters) out.solids.emplace_back(cutter);
   if (outer) {
-    TRY(auto inner, joint::trace(out.cutters, wall.inner, stop));
+    TRY(auto inner, joint::trace(out.cutters, wall.inner));
     out.inner = std::move(inner);
   }
   return out;
@@ -271,19 +271,18 @@ bool Rows::jump_pair(std::size_t i) const {
          nodes[i + 1].kind == joint::NodeKind::jump && nodes[i].phi == nodes[i + 1].phi;
 }
 
-Result<Rows> rows(const TableSetup& g, const std::vector<double>& also, const Rows& known,
-                  const std::stop_token& stop) {
+Result<Rows> rows(const TableSetup& g, const std::vector<double>& also, const Rows& known) {
   auto sampling = g.spec.sampling;
   sampling.max_nodes =
       std::min(sampling.max_nodes, most_rows(g.spec.kerf, g.spec.target.outer_radius));
-  TRY(auto samples, joint::sample(g.root, sampling, also, stop));
+  TRY(auto samples, joint::sample(g.root, sampling, also));
   Rows out{.samples = std::move(samples), .points = {}};
   const auto& nodes = out.samples.nodes;
   out.points.resize(nodes.size());
   const bool at_once = alike(g.spec);
   std::vector<std::size_t> together;
   for (const auto i : take_over(known, out)) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     const auto& node = nodes[i];
     if (!one_sided(node))
       out.points[i] = larger(g, node);
@@ -294,7 +293,7 @@ Result<Rows> rows(const TableSetup& g, const std::vector<double>& also, const Ro
   }
   const auto block_rows = rows_between_looks(g.root.cutters);
   for (std::span<const std::size_t> left = together; !left.empty();) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     const auto block = left.first(std::min(block_rows, left.size()));
     make_alike(g, block, out);
     left = left.subspan(block.size());

@@ -50,18 +50,16 @@ std::vector<std::size_t> junction_steps(const TableSetup& g, std::size_t n) {
 
 Result<std::vector<double>> smooth_hermite(const TableSetup& g, const joint::Samples& samples,
                                            const ArcPath& p, const HermiteSmoothing& method,
-                                           Table& out, const std::stop_token& stop) {
+                                           Table& out) {
   if (g.spec.sampling.tolerance)
     return fail({.code = ErrorCode::sampling_not_uniform,
                  .member = "sampling/tolerance",
                  .got = g.spec.sampling.tolerance->value,
                  .limit = "uniform_points alone",
                  .unit = "mm"});
-  auto smoothed = hermite(p.profile,
-                          {.limit = g.spec.mutation_limit.rad(),
-                           .transition = method.transition_points,
-                           .junctions = junction_steps(g, p.profile.s.size())},
-                          stop);
+  auto smoothed = hermite(p.profile, {.limit = g.spec.mutation_limit.rad(),
+                                      .transition = method.transition_points,
+                                      .junctions = junction_steps(g, p.profile.s.size())});
   if (!smoothed) {
     auto error = smoothed.error();
     for (auto& issue : error.issues) issue.member = "smoothing/transition_points";
@@ -79,11 +77,11 @@ Result<std::vector<double>> smooth_hermite(const TableSetup& g, const joint::Sam
 }
 
 Result<std::vector<double>> smooth(const TableSetup& g, const joint::Samples& samples,
-                                   const ArcPath& p, Table& out, const std::stop_token& stop) {
+                                   const ArcPath& p, Table& out) {
   if (const auto* method = std::get_if<HermiteSmoothing>(&g.spec.smoothing))
-    return smooth_hermite(g, samples, p, *method, out, stop);
+    return smooth_hermite(g, samples, p, *method, out);
   if (const auto* method = std::get_if<EnvelopeSmoothing>(&g.spec.smoothing)) {
-    TRY(auto smoothed, envelope(p.profile, envelope_of(g.spec, *method), stop));
+    TRY(auto smoothed, envelope(p.profile, envelope_of(g.spec, *method)));
     out.multipliers = std::move(smoothed.multipliers);
     return std::move(smoothed.b);
   }
@@ -199,7 +197,9 @@ Result<void> check_required_in_torch_range(const TableSetup& g, const Rows& rows
 void note_torch_binds(const TableSetup& g, const Rows& rows, Table& out) {
   const auto& samples = rows.samples;
   const auto& points = rows.points;
-  const bool lifted = g.spec.contact == Contact::automatic;
+  const bool lifted =
+      g.spec.contact == Contact::automatic &&
+      !std::holds_alternative<SquareCut>(g.spec.groove);  // else B is lifted nowhere
   const auto lost = [&](std::size_t i) {
     const double rule = std::abs(points[i].angles.b - points[i].raw);
     return lifted ? std::max(rule, points[i].required - g.spec.torch.max.rad()) : rule;
@@ -228,12 +228,11 @@ EnvelopeSpec envelope_of(const TableSpec& spec, const EnvelopeSmoothing& method)
   return {.limits = method.limits, .highest = spec.torch.max.rad(), .refine = method.refine};
 }
 
-Result<void> fill_smoothed(const TableSetup& g, const Rows& rows, Table& out,
-                           const std::stop_token& stop) {
+Result<void> fill_smoothed(const TableSetup& g, const Rows& rows, Table& out) {
   const auto p = path(g, rows);
   for (const auto& m : mutations(p.profile.b, g.spec.mutation_limit.rad()))
     out.mutations.push_back({.phi = rows.samples.nodes[p.node[m.index]].phi, .step = m.step});
-  TRY(auto smoothed, smooth(g, rows.samples, p, out, stop));
+  TRY(auto smoothed, smooth(g, rows.samples, p, out));
   for (const auto entry : p.entry) out.b.push_back(smoothed[entry]);
   return check_smoothed(g, rows, out);
 }

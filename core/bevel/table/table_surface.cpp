@@ -3,7 +3,9 @@
 #include <limits>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/bevel/beam/penetration.hpp"
+#include "core/bevel/table/root_opens.hpp"
 #include "core/bevel/table/table_parts.hpp"
 #include "core/joint/solid.hpp"
 #include "core/joint/stations.hpp"
@@ -59,7 +61,7 @@ double lift_at(const TableSetup& g, const Rows& rows, std::size_t i, double slop
 
 }  // namespace
 
-void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std::stop_token& stop) {
+void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out) {
   const auto& nodes = rows.samples.nodes;
   const double t = g.spec.target.wall, f = g.spec.root_face;
   const bool outer = g.inner.has_value();
@@ -71,7 +73,7 @@ void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std:
   if (outer)
     envelope = joint::contacts_at(*g.inner, joint::stations_at(g.wall.inner, out.phi), out.phi).z;
   for (auto* column : {&out.z_inner, &out.z_outer, &out.gap, &out.beam}) column->reserve(n);
-  for (std::size_t i = 0; i < n && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < n && !stopped(); ++i) {
     const double slope = (out.inward ? -1.0 : 1.0) * slopes[i];
     const double root = nodes[i].z + rows.points[i].raised;
     double z = root;  // of the root surface
@@ -89,8 +91,7 @@ void fill_surfaces(const TableSetup& g, const Rows& rows, Table& out, const std:
   }
 }
 
-void fill_torch(const TableSpec& spec, const std::vector<double>& drops, Table& out,
-                const std::stop_token& stop) {
+void fill_torch(const TableSpec& spec, const std::vector<double>& drops, Table& out) {
   const auto n = out.b.size();
   out.torch_inner.resize(n);
   out.torch_outer.resize(n);
@@ -107,17 +108,16 @@ void fill_torch(const TableSpec& spec, const std::vector<double>& drops, Table& 
     }
     return beam_cut(spec, out);
   };
-  out.torch_line = clear_torch(n, lowered, stop);
+  out.torch_line = clear_torch(n, lowered);
 }
 
-Result<void> check_clearance(const TableSetup& g, const Rows& rows, const Table& out,
-                             const std::stop_token& stop) {
+Result<void> check_clearance(const TableSetup& g, const Rows& rows, const Table& out) {
   if (g.spec.contact != Contact::outer) return {};
   constexpr double kEnters = 1e-9;  // of the radius
   std::vector<double> depth;
-  for (std::size_t i = 0; i < out.b.size() && !stop.stop_requested(); ++i)
+  for (std::size_t i = 0; i < out.b.size() && !stopped(); ++i)
     depth.push_back(lift_at(g, rows, i, elementary::tan(out.b[i])) - out.z_inner[i]);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   auto intervals =
       runs(rows.samples.nodes, [&](std::size_t i) { return depth[i] > kEnters * g.wall.outer; });
   if (intervals.empty()) return {};
@@ -130,10 +130,9 @@ Result<void> check_clearance(const TableSetup& g, const Rows& rows, const Table&
                        " mm along the axis; contact auto lifts the cut clear"});
 }
 
-std::vector<double> entering_phases(const TableSetup& g, const Table& t, double tolerance,
-                                    const std::stop_token& stop) {
+std::vector<double> entering_phases(const TableSetup& g, const Table& t, double tolerance) {
   constexpr double kNarrow = 1e-4;  // mm, developed: minimum
-  const auto gaps = entering(finished_wall(g.spec, t), g.solids, tolerance, stop);
+  const auto gaps = entering(finished_wall(g.spec, t), g.solids, tolerance);
   std::vector<double> out;
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     const auto j = (i + 1) % gaps.size();
@@ -147,9 +146,9 @@ std::vector<double> entering_phases(const TableSetup& g, const Table& t, double 
   return out;
 }
 
-void state_penetration(const TableSetup& g, Table& out, const std::stop_token& stop) {
+void state_penetration(const TableSetup& g, Table& out) {
   constexpr double kSlack = 3e-4;  // mm
-  out.penetration = deepest(finished_wall(g.spec, out), g.solids, kSlack, stop);
+  out.penetration = deepest(finished_wall(g.spec, out), g.solids, kSlack);
   out.penetration.depth = std::max(0.0, out.penetration.depth);
   const auto& p = out.penetration;
   if (promises_no_penetration(g.spec) || !(p.depth > penetration_limit(g.spec))) return;
@@ -184,15 +183,10 @@ void note_overhang(const TableSetup& g, Table& out) {
 }
 
 void note_root_opens(const TableSpec& spec, Table& out) {
-  if (spec.contact != Contact::automatic && spec.contact != Contact::outer) return;
-  constexpr double kOpen = 1e-3;  // mm
-  const auto widest = std::ranges::max_element(out.gap);
-  if (widest == out.gap.end() || *widest <= kOpen) return;
-  const auto at = static_cast<std::size_t>(widest - out.gap.begin());
-  out.warnings.push_back({.code = WarningCode::root_opens,
-                          .member = "contact",
-                          .detail = "by up to " + shown(*widest) + " mm, at phi " +
-                                    shown(out.phi[at] * kDegPerRad) + " deg"});
+  const auto place = [&](std::size_t i) {
+    return "phi " + brief(out.phi[i] * kDegPerRad) + " deg";
+  };
+  if (auto opens = root_opens(spec, out.gap, place)) out.warnings.push_back(*std::move(opens));
 }
 
 void note_events_between(const TableSetup& g, Table& out) {

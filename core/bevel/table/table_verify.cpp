@@ -111,8 +111,7 @@ void envelope_checks(const TableSpec& spec, const EnvelopeSmoothing& method, con
 
 /// Returns the distance of each row's cut to the nearest partner, mm; negative: it enters.
 std::vector<double> clearances(const TableSpec& spec, const Table& t,
-                               const std::vector<joint::Solid>& solids, const Directions& phi,
-                               const std::stop_token& stop) {
+                               const std::vector<joint::Solid>& solids, const Directions& phi) {
   const auto n = t.phi.size();
   const bool face = !t.z_face.empty();
   std::vector<double> least(n, std::numeric_limits<double>::infinity()), one(n);
@@ -127,7 +126,7 @@ std::vector<double> clearances(const TableSpec& spec, const Table& t,
   const auto corner = face ? edge(inner + spec.root_face, t.z_face) : from;
   const auto see = [&](const joint::PointArrays& a, const joint::PointArrays& b) {
     for (const auto& solid : solids) {
-      if (stop.stop_requested()) return;
+      if (stopped()) return;
       joint::least_distances(solid, a, b, one);
       joint::lower(least, one);
     }
@@ -152,24 +151,24 @@ std::vector<double> golden_shares(std::size_t n) {
 
 /// Returns the largest depth at these points between each row and the next: in the middle at every
 /// edge and once between them, and one anywhere in the gap.
-double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
-                     const std::stop_token& stop) {
+double sampled_depth(const TableSpec& spec, const Table& t,
+                     const std::vector<joint::Solid>& solids) {
   const auto n = t.phi.size();
   const BetweenRows surface(spec, t);
   std::vector<double> least(n, std::numeric_limits<double>::infinity()), distance(n), at(n);
   const auto see = [&](std::span<const double> share, const Directions& phi,
                        std::span<const double> radius) {
-    if (stop.stop_requested()) return;
+    if (stopped()) return;
     const auto places = surface.places(share, phi, radius);
     for (const auto& solid : solids) {
-      if (stop.stop_requested()) return;
+      if (stopped()) return;
       joint::distances(solid, places, distance);
       joint::lower(least, distance);
     }
   };
   const double inner = spec.target.inner_radius(), wall = spec.target.wall;
   const auto golden = golden_shares(3 * n);
-  if (stop.stop_requested()) return 0.0;
+  if (stopped()) return 0.0;
   const std::vector<double> half(n, 0.5);
   const Directions middle(surface.phases(half));
   see(half, middle, std::vector<double>(n, inner));
@@ -195,12 +194,12 @@ double sampled_depth(const TableSpec& spec, const Table& t, const std::vector<jo
 /// Checks the table's stated deepest point, at that point and at others.
 void penetration_checks(const TableSpec& spec, const Table& t,
                         const std::vector<joint::Solid>& solids, double at_rows,
-                        std::vector<Check>& out, const std::stop_token& stop) {
+                        std::vector<Check>& out) {
   const auto& p = t.penetration;
   const auto at = math::cylinder_point(p.radius, p.phi, p.z);
   const double there = p.solid < solids.size() ? worst_of({0.0, -solids[p.solid].distance(at)})
                                                : std::numeric_limits<double>::infinity();
-  const double found = worst_of({at_rows, sampled_depth(spec, t, solids, stop)});
+  const double found = worst_of({at_rows, sampled_depth(spec, t, solids)});
   out.push_back({"penetration_stated", worst_of({std::abs(there - p.depth), found - p.depth}),
                  kStated, "mm"});
   if (promises_no_penetration(spec))
@@ -210,12 +209,11 @@ void penetration_checks(const TableSpec& spec, const Table& t,
 
 /// Checks the gaps of an untilted cut: at the distance of its gap from each edge, back along the
 /// nearest partner's normal, is that partner's surface, and no other is nearer.
-double gaps_off(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids,
-                const std::stop_token& stop) {
+double gaps_off(const TableSpec& spec, const Table& t, const std::vector<joint::Solid>& solids) {
   double worst = t.gaps.square.inner.size() == t.phi.size() ? 0.0 : 1.0;
   const auto edge = [&](const std::vector<double>& gaps, double radius,
                         const std::vector<double>& z) {
-    for (std::size_t i = 0; i < gaps.size() && !stop.stop_requested(); ++i) {
+    for (std::size_t i = 0; i < gaps.size() && !stopped(); ++i) {
       const auto turn = elementary::sincos(t.phi[i]);
       const Vector3d at(radius * turn.cos, radius * turn.sin, z[i]);
       double off = std::numeric_limits<double>::infinity();
@@ -303,7 +301,7 @@ std::optional<SmoothedArea> smoothed_area(const TableSpec& spec, const Table& t)
   return area_of(spec, *method, path(t, smoother_input(spec, t), method->along), t.multipliers);
 }
 
-std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop_token& stop) {
+std::vector<Check> verify(const TableSpec& spec, const Table& t) {
   if (const auto none = not_numbers(t); none > 0)
     return {{"numbers", static_cast<double>(none), 0.0, ""}};
   std::vector<joint::Solid> solids;
@@ -315,17 +313,17 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
   const bool square = std::holds_alternative<SquareCut>(spec.groove);
   const double low = spec.torch.min.rad(), high = spec.torch.max.rad();
   const Directions phi(t.phi);
-  const auto clear_of = clearances(spec, t, solids, phi, stop);
-  if (stop.stop_requested()) return {};
+  const auto clear_of = clearances(spec, t, solids, phi);
+  if (stopped()) return {};
   const auto rows = row_normals(spec, t, solids, phi);
   const auto angle = dihedrals(rows, spec.dihedral);
-  if (stop.stop_requested()) return {};
+  if (stopped()) return {};
   const auto planes = plane_errors(rows, spec.dihedral, Directions(t.tau), Directions(t.b_raw));
   const auto input = smoother_input(spec, t);
   const auto* zoned = std::get_if<ZonedGroove>(&spec.groove);
   std::optional<GapRamps> ramps;
   if (zoned != nullptr && zoned->has_root_gaps()) ramps.emplace(*zoned);
-  for (std::size_t i = 0; i < t.b.size() && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i < t.b.size() && !stops(i); ++i) {
     const bool steep = std::abs(rows.partner.z[i]) < kSilhouette;
     // Near a silhouette, at a corner, at the limit of the torch, and with the paper's own gamma
     // there is no such plane.
@@ -352,10 +350,9 @@ std::vector<Check> verify(const TableSpec& spec, const Table& t, const std::stop
   if (spec.contact != Contact::none) out.push_back({"penetration", deep, kPenetration, "mm"});
   if (lifted) out.push_back({"touch", off, kPenetration, "mm"});
   if (ramps) out.push_back({"zone_gap", gaps_missed(spec, t, solids, *ramps), kPenetration, "mm"});
-  if (spec.untilted)
-    out.push_back({"gap_map", gaps_off(spec, t, solids, stop), kPenetration, "mm"});
-  penetration_checks(spec, t, solids, deep, out, stop);
-  for (auto& check : verify_torch_line(beam_cut(spec, t), t.torch_line, stop))
+  if (spec.untilted) out.push_back({"gap_map", gaps_off(spec, t, solids), kPenetration, "mm"});
+  penetration_checks(spec, t, solids, deep, out);
+  for (auto& check : verify_torch_line(beam_cut(spec, t), t.torch_line))
     out.push_back(std::move(check));
   return out;
 }

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/joint/finished.hpp"
 #include "core/math/search.hpp"
 
@@ -103,13 +104,13 @@ class Entry {
       : m_(m), solid_(solid), region_(region) {}
 
   /// Returns true if metal of the member is deeper in the body than `kLeastShared`.
-  [[nodiscard]] bool enters(const std::stop_token& stop) const {
+  [[nodiscard]] bool enters() const {
     const double half = 0.5 * (m_.outer - m_.inner);
     std::vector<Cell> cells;
     for (int k = 0; k < kAround; ++k)
       cells.push_back({kTwoPi * k / kAround, kPi / kAround, m_.inner + half, half});
     for (std::size_t next = 0; next < cells.size() && next < kMostCells; ++next) {
-      if (stop.stop_requested()) return false;
+      if (stopped()) return false;
       const auto cell = cells[next];  // a copy, because the list grows
       const double off = m_.bundle_reach(cell.rho, cell.half_rho, cell.half_phi);
       if (!(least(cell, {off, off}, off) < off - kLeastShared)) continue;
@@ -228,14 +229,14 @@ bool along_inside(const Member& m, const CutterKinds::Solid& solid) {
 
 Result<std::vector<BodyOverlap>> overlaps_with(const std::vector<Body>& bodies,
                                                const NodeSpec& spec, const Nodes& nodes,
-                                               const Beside& beside, const std::stop_token& stop) {
+                                               const Beside& beside) {
   std::vector<BodyOverlap> out;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto solid = by_kind(bodies[b].partner, InWorld{});
     if (!solid) continue;
     const auto region = by_kind(*solid, RegionOf{bodies[b]});
     for (std::size_t i = 0; i < spec.members.size(); ++i) {
-      if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+      if (stopped()) return fail({.code = ErrorCode::cancelled});
       const auto& m = spec.members[i];
       if (std::ranges::find(bodies[b].joined, i, &std::pair<std::size_t, Vector3d>::first) !=
               bodies[b].joined.end() ||
@@ -243,7 +244,7 @@ Result<std::vector<BodyOverlap>> overlaps_with(const std::vector<Body>& bodies,
         continue;
       const auto member = detail::finished(spec, nodes, i, beside);
       const Entry entry(member, *solid, region);
-      if (!entry.enters(stop)) continue;
+      if (!entry.enters()) continue;
       auto one = entry.deepest();
       one.member = i;
       one.body = b;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -38,7 +37,6 @@ struct BodyOverlap {
 [[nodiscard]] Result<std::vector<BodyOverlap>> overlaps_with(const std::vector<Body>& bodies,
                                                              const NodeSpec& spec,
                                                              const Nodes& nodes,
-                                                             const Beside& beside,
-                                                             const std::stop_token& stop = {});
+                                                             const Beside& beside);
 
 }  // namespace tubecut::joint

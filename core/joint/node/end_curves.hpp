@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/joint/node/node.hpp"
@@ -16,18 +15,17 @@ struct EndCurves : Intersection {
 /// Computes the curves of `spec.target`, or of the section. Its warnings are in the base either
 /// way.
 [[nodiscard]] Result<EndCurves> curves(const IntersectionSpec& spec,
-                                       const std::optional<section::Section>& section,
-                                       const std::stop_token& stop = {});
+                                       const std::optional<section::Section>& section);
 [[nodiscard]] std::vector<Check> verify(const IntersectionSpec& spec,
                                         const std::optional<section::Section>& section,
-                                        const EndCurves& answer, const std::stop_token& stop = {});
+                                        const EndCurves& answer);
 
 /// Computes the curves of every end that is cut on all sides; empty for other ends, and for those
 /// whose member is consumed.
 ///
 /// Errors  too_many_nodes (of all ends together), cancelled.
-[[nodiscard]] Result<std::vector<std::optional<EndCurves>>> profiles(
-    const NodeSpec& spec, const Nodes& nodes, const Sampling& sampling,
-    const std::stop_token& stop = {});
+[[nodiscard]] Result<std::vector<std::optional<EndCurves>>> profiles(const NodeSpec& spec,
+                                                                     const Nodes& nodes,
+                                                                     const Sampling& sampling);
 
 }  // namespace tubecut::joint

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/node/node_parts.hpp"
 
@@ -196,11 +197,11 @@ Lines lines_of(const NodeSpec& spec, const Joined& joined) {
   out.rank.resize(out.line.size());
   for (std::size_t i = 0; i < out.rank.size(); ++i) out.rank[i] = i;
   const auto* within = std::get_if<Within>(&spec.connect);
+  out.first = going_on(spec, joined, out, within ? within->distance : 0.0);
   if (within == nullptr) return out;
   out.rank = earliest(out.mates, [&](std::size_t a, std::size_t b) {
     return alike(spec.members[a], spec.members[b]);
   });
-  out.first = going_on(spec, joined, out, within->distance);
   return out;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/angle.hpp"
@@ -41,8 +40,9 @@ struct Facing {
 /// Finds for each end the end that continues it with nothing between the two; the relation is
 /// symmetric.
 ///
-/// Errors  those of `solve` for members, links and stated joints.
-[[nodiscard]] Result<std::vector<std::optional<std::size_t>>> continued(
-    const NodeSpec& spec, const std::stop_token& stop = {});
+/// Of the stated joints only `through` counts: a member that passes through does not end there.
+///
+/// Errors  those of `solve` for members and links.
+[[nodiscard]] Result<std::vector<std::optional<std::size_t>>> continued(const NodeSpec& spec);
 
 }  // namespace tubecut::joint

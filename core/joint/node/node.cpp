@@ -6,20 +6,21 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/nearness.hpp"
 #include "core/joint/node/in_line.hpp"
 #include "core/joint/node/node_parts.hpp"
+#include "core/joint/node/shape.hpp"
 
 namespace tubecut::joint {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kEquallyNear = 1e-6;                  // mm: two chords at the same distance
-constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg
-constexpr double kStep = 0.01;                         // mm between two mitred edges: negligible
-constexpr double kFoundStep = 0.5;  // for found members in line, because coordinates are rounded
+constexpr double kEquallyNear = 1e-6;  // mm: two chords at the same distance
+constexpr double kStep = 0.01;         // mm between two mitred edges: negligible
+constexpr double kFoundStep = 0.5;     // for found members in line, because coordinates are rounded
 
 using detail::Applied;
 using detail::called;
@@ -219,7 +220,10 @@ void warn(const NodeSpec& spec, const MemberEnd& end, const Around& around,
     return around.applied.found.contains(std::minmax(end.member, cut.member)) ? kFoundStep : kStep;
   };
   if (const auto& missed = around.missed) {
-    const double off = missed->near.distance - spec.members[missed->other].reach();
+    const auto& other = spec.members[missed->other];
+    const double off = missed->near.inside > 0.0
+                           ? detail::distance_from(other, spec.members[end.member].at(end.end))
+                           : missed->near.distance - other.reach();
     out.push_back({.code = WarningCode::free_end,
                    .member = at,
                    .detail = called(spec, end.member) + " meets no member here, and misses " +
@@ -233,7 +237,7 @@ void warn(const NodeSpec& spec, const MemberEnd& end, const Around& around,
       out.push_back({.code = WarningCode::mitre_steps,
                      .member = at,
                      .detail = "its edge and that of " + called(spec, cut.member) +
-                               " stand up to " + shown(step) + " mm apart"});
+                               " stand up to " + brief(step) + " mm apart"});
   if (end.open) out.push_back({.code = WarningCode::end_open, .member = at});
   if (end.consumed) out.push_back({.code = WarningCode::end_consumed, .member = at});
 }
@@ -262,7 +266,7 @@ std::optional<Warning> no_cutter(const NodeSpec& spec, const MemberEnd& end, con
   if (cut.plane || !seen.anywhere) return std::nullopt;
   const auto at = place_of(end.member, end.end);
   const double sine = sine_between(spec.members[end.member], spec.members[cut.member]);
-  if (seen.consumes && sine < kNearParallel)
+  if (seen.consumes && sine < detail::kNearParallel)
     return Warning{WarningCode::parallel_members, at,
                    parallel_to(spec, end.member, cut.member) + " and does not cut it: the cut " +
                        "would begin " + brief(seen.highest) + " mm from the end"};
@@ -303,7 +307,8 @@ Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Aroun
       }
     for (const auto& one : cutters)
       if (one.mitre == nullptr &&
-          sine_between(spec.members[out.member], spec.members[one.touch.other]) < kNearParallel)
+          sine_between(spec.members[out.member], spec.members[one.touch.other]) <
+              detail::kNearParallel)
         warnings.push_back(
             {.code = WarningCode::near_parallel,
              .member = place_of(out.member, out.end),
@@ -315,16 +320,16 @@ Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Aroun
 
 }  // namespace
 
-Result<Nodes> solve(const NodeSpec& spec, const std::stop_token& stop) {
-  TRY(auto joined, detail::connected(spec, stop));
-  TRY(const auto near, detail::missed(spec, joined, stop));
+Result<Nodes> solve(const NodeSpec& spec) {
+  TRY(auto joined, detail::connected(spec));
+  TRY(const auto near, detail::missed(spec, joined));
   const auto lines = detail::lines_of(spec, joined);
   TRY(auto applied, detail::apply_joints(spec, lines, joined));
   detail::join_lines(spec, lines, joined, applied);
   Nodes out;
   out.ends.reserve(joined.size());
   for (std::size_t i = 0; i < joined.size(); ++i) {
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     const Around around{applied, lines, joined[i], near[i]};
     TRY(auto end, solve_end(spec, i, around, out.warnings));
     out.ends.push_back(std::move(end));

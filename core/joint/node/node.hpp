@@ -17,7 +17,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -93,6 +92,13 @@ struct MemberEnd {
 /// Returns the body that cuts: the member's tube or section, or a mitre's plane.
 [[nodiscard]] Partner partner_of(const CutBy& cut);
 
+/// Returns for each of `cut_by` whether it comes near the outermost somewhere on the member's
+/// outside or bore, at 180 places of each: one that others hide everywhere does not touch the
+/// member. Near: within `kHidden` of the member's reach, more than a cutter rises between two
+/// places.
+inline constexpr double kHidden = 0.005;
+[[nodiscard]] std::vector<bool> cuts_anywhere(const Member& member, const MemberEnd& end);
+
 struct Nodes {
   std::vector<MemberEnd> ends;  // start and finish of each member, in their order
   std::vector<Warning> warnings;
@@ -121,7 +127,7 @@ struct Nodes {
 /// Cost      memory linear in members; time as `touches`, and 1 us for each cutter, 10 us for each
 ///           end whose cut may pass its partners' ends.
 /// Source    docs/theory/intersections-and-bevels.md, section 1.1.
-[[nodiscard]] Result<Nodes> solve(const NodeSpec& spec, const std::stop_token& stop = {});
+[[nodiscard]] Result<Nodes> solve(const NodeSpec& spec);
 
 /// The target and partners of one cut end, in the form for `intersect` and `bevel::table`, and the
 /// indices of the members.
@@ -139,15 +145,13 @@ struct EndJoint {
 [[nodiscard]] std::string place_of(std::size_t member, End end);
 
 /// Errors  as `solve`; no_contact (members/i: nothing cuts this end).
-[[nodiscard]] Result<EndJoint> joint_at(const NodeSpec& spec, std::size_t member, End end,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] Result<EndJoint> joint_at(const NodeSpec& spec, std::size_t member, End end);
 [[nodiscard]] EndJoint joint_of(const NodeSpec& spec, const MemberEnd& end);
 /// Returns the surfaces on which the end lies, for its curves.
 [[nodiscard]] std::vector<Partner> seats(const EndJoint& joint);
 
 /// Verifies the answer against the centre-lines in the world: axes by cross products, angles by
 /// half tangents, and who cuts whom from the rules.
-[[nodiscard]] std::vector<Check> verify(const NodeSpec& spec, const Nodes& nodes,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Check> verify(const NodeSpec& spec, const Nodes& nodes);
 
 }  // namespace tubecut::joint

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <string>
 
@@ -31,7 +32,10 @@ Result<void> check_section(const Member& m) {
   const auto frame = member_frame(m.start, m.finish, *m.up);
   if (frame) return {};
   auto error = frame.error();
-  for (auto& issue : error.issues) issue.member = "up";
+  for (auto& issue : error.issues) {
+    issue.member = "up";
+    if (issue.hint.empty()) issue.hint = "it lies along the member; name a direction across it";
+  }
   return tl::unexpected(std::move(error));
 }
 
@@ -55,12 +59,34 @@ Result<void> check(const NodeSpec& spec) {
   return {};
 }
 
-Result<Joined> joined_within(const NodeSpec& spec, double distance, const std::stop_token& stop) {
+/// Returns true if the member of the end runs along the other, at an angle of at most `sine`, but
+/// next to it: the two are not pieces of one line.
+bool runs_along(const NodeSpec& spec, const Touch& touch, double sine) {
+  const auto& own = spec.members[touch.end / 2];
+  const auto& other = spec.members[touch.other];
+  if (!(sine_between(own, other) < sine)) return false;
+  const Eigen::Vector3d along = (other.finish - other.start).normalized();
+  return (own.at(end_of(touch.end)) - other.start).cross(along).norm() > 0.5 * own.reach();
+}
+
+/// Returns true if the member of the end runs along the other, or touches it before its end: a
+/// picket in front of a rail.
+bool lies_next_to(const NodeSpec& spec, const Touch& touch) {
+  constexpr double kTouch = 0.1;  // mm
+  if (runs_along(spec, touch, kNearParallel)) return true;
+  const auto& own = spec.members[touch.end / 2];
+  const auto& other = spec.members[touch.other];
+  const double apart = nearness(Stretch{own.start, own.finish}, Stretch{other.start, other.finish});
+  return apart < touch.near.distance - kTouch && apart < own.reach() + other.reach() + kTouch;
+}
+
+Result<Joined> joined_within(const NodeSpec& spec, double distance) {
   std::vector<Stretch> stretches;
   for (const auto& m : spec.members) stretches.push_back(stretch(m, distance + m.reach()));
-  TRY(const auto found, touches(stretches, kMostCutters, stop));
+  TRY(const auto found, touches(stretches, kMostCutters));
   Joined out(2 * spec.members.size());
-  for (const auto& touch : found) out[touch.end].push_back(touch);
+  for (const auto& touch : found)
+    if (!runs_along(spec, touch, kInLine)) out[touch.end].push_back(touch);
   return out;
 }
 
@@ -84,14 +110,14 @@ Result<Joined> joined_by(const NodeSpec& spec, const std::vector<Link>& links) {
 
 }  // namespace
 
-Result<Joined> connected(const NodeSpec& spec, const std::stop_token& stop) {
+Result<Joined> connected(const NodeSpec& spec) {
   TRY(check(spec));
   if (const auto* within = std::get_if<Within>(&spec.connect))
-    return joined_within(spec, within->distance, stop);
+    return joined_within(spec, within->distance);
   return joined_by(spec, std::get<std::vector<Link>>(spec.connect));
 }
 
-Result<Missed> missed(const NodeSpec& spec, const Joined& joined, const std::stop_token& stop) {
+Result<Missed> missed(const NodeSpec& spec, const Joined& joined) {
   const auto* within = std::get_if<Within>(&spec.connect);
   if (within == nullptr) return Missed(joined.size());
   constexpr double kTimes = 3.0;
@@ -100,20 +126,25 @@ Result<Missed> missed(const NodeSpec& spec, const Joined& joined, const std::sto
     stretches.push_back(stretch(m, kTimes * (within->distance + m.reach())));
   std::vector<bool> free;
   for (const auto& touches : joined) free.push_back(touches.empty());
-  TRY(auto out, nearest_touches(stretches, free, stop));
-  for (std::size_t end = 0; end < out.size(); ++end)
-    if (out[end] && std::ranges::count(joined[end ^ 1U], out[end]->other, &Touch::other) > 0)
-      out[end].reset();
+  TRY(auto out, nearest_touches(stretches, free));
+  const auto joins = [&](std::size_t end, std::size_t other) {
+    return std::ranges::count(joined[end], other, &Touch::other) > 0;
+  };
+  for (std::size_t end = 0; end < out.size(); ++end) {
+    if (!out[end]) continue;
+    const auto other = out[end]->other;
+    const bool runs_past = joins(2 * other, end / 2) || joins(2 * other + 1, end / 2);
+    if (joins(end ^ 1U, other) || runs_past || lies_next_to(spec, *out[end])) out[end].reset();
+  }
   return out;
 }
 
 }  // namespace detail
 
-Result<std::vector<std::optional<std::size_t>>> continued(const NodeSpec& spec,
-                                                          const std::stop_token& stop) {
-  TRY(auto joined, detail::connected(spec, stop));
+Result<std::vector<std::optional<std::size_t>>> continued(const NodeSpec& spec) {
+  TRY(auto joined, detail::connected(spec));
   const auto lines = detail::lines_of(spec, joined);
-  TRY(const auto applied, detail::apply_joints(spec, lines, joined));
+  detail::part_passing(spec, joined);
   std::vector<std::optional<std::size_t>> out(joined.size());
   for (std::size_t p = 0; p < joined.size(); ++p)
     if (const auto& mate = lines.mates[p];

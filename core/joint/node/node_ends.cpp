@@ -59,9 +59,8 @@ EndJoint joint_of(const NodeSpec& spec, const MemberEnd& end) {
   return out;
 }
 
-Result<EndJoint> joint_at(const NodeSpec& spec, std::size_t member, End end,
-                          const std::stop_token& stop) {
-  TRY(const auto nodes, solve(spec, stop));
+Result<EndJoint> joint_at(const NodeSpec& spec, std::size_t member, End end) {
+  TRY(const auto nodes, solve(spec));
   const auto at = place_of(member, end);
   const auto& found = nodes.ends[2 * member + (end == End::finish ? 1 : 0)];
   if (found.cut_by.empty())
@@ -73,30 +72,28 @@ Result<EndJoint> joint_at(const NodeSpec& spec, std::size_t member, End end,
   for (const auto& warning : nodes.warnings)
     if (warning.member == at && warning.code != WarningCode::near_parallel)
       out.warnings.push_back(warning);
-  TRY(const auto shared, overlaps(spec, nodes, member, stop));
+  TRY(const auto shared, overlaps(spec, nodes, member));
   for (auto& warning : warnings_of(spec, shared, member))
     out.warnings.push_back(std::move(warning));
   return out;
 }
 
 Result<EndCurves> curves(const IntersectionSpec& spec,
-                         const std::optional<section::Section>& section,
-                         const std::stop_token& stop) {
+                         const std::optional<section::Section>& section) {
   if (!section) {
-    TRY(auto round, intersect(spec, stop));
+    TRY(auto round, intersect(spec));
     return EndCurves{std::move(round)};
   }
-  TRY(auto made, intersect(*section, spec, stop));
+  TRY(auto made, intersect(*section, spec));
   EndCurves out{{.profiles = {}, .warnings = made.warnings}};
   out.of_section = std::move(made);
   return out;
 }
 
 std::vector<Check> verify(const IntersectionSpec& spec,
-                          const std::optional<section::Section>& section, const EndCurves& answer,
-                          const std::stop_token& stop) {
+                          const std::optional<section::Section>& section, const EndCurves& answer) {
   if (section) return verify(*section, spec, *answer.of_section);
-  return verify(spec, answer, stop);
+  return verify(spec, answer);
 }
 
 namespace {
@@ -112,8 +109,7 @@ std::size_t rows_of(const EndCurves& curves) {
 }  // namespace
 
 Result<std::vector<std::optional<EndCurves>>> profiles(const NodeSpec& spec, const Nodes& nodes,
-                                                       const Sampling& sampling,
-                                                       const std::stop_token& stop) {
+                                                       const Sampling& sampling) {
   std::vector<std::optional<EndCurves>> out(nodes.ends.size());
   auto left = sampling;
   for (std::size_t i = 0; i < nodes.ends.size(); ++i) {
@@ -124,7 +120,7 @@ Result<std::vector<std::optional<EndCurves>>> profiles(const NodeSpec& spec, con
                         .partners = seats(joint),
                         .surfaces = Surfaces::both,
                         .sampling = left},
-                       joint.section, stop);
+                       joint.section);
     if (!made) {
       const auto code = made.error().code();
       if (code == ErrorCode::member_consumed || code == ErrorCode::open_profile ||

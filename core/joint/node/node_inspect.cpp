@@ -209,3 +209,25 @@ std::vector<Presence> inspect(const NodeSpec& spec, const Lines& lines, const Ap
 }
 
 }  // namespace tubecut::joint::detail
+
+namespace tubecut::joint {
+
+std::vector<bool> cuts_anywhere(const Member& member, const MemberEnd& end) {
+  std::vector<bool> out(end.cut_by.size(), end.cut_by.size() < 2);
+  if (end.cut_by.size() < 2) return out;
+  const auto cutters = detail::prepared_seats(end);
+  for (const auto& surface : detail::surfaces_of(member))
+    for (const auto& line :
+         surface.outline ? detail::lines_on(*surface.outline) : detail::lines_on(surface.reach)) {
+      const auto top = highest(cutters, line);
+      if (!top) continue;
+      out[top->cutter] = true;
+      for (std::size_t i = 0; i < cutters.size(); ++i)
+        if (!out[i])
+          if (const auto at = hit(cutters[i], line))
+            out[i] = at->z > top->z - kHidden * member.reach();
+    }
+  return out;
+}
+
+}  // namespace tubecut::joint

@@ -5,6 +5,7 @@
 
 #include "core/base/try.hpp"
 #include "core/joint/node/node_parts.hpp"
+#include "core/joint/node/passing.hpp"
 
 namespace tubecut::joint {
 
@@ -18,9 +19,6 @@ namespace detail {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kInLine = 0.00872653549837393;        // sin 0.5 deg: two ends face each other
-constexpr double kNearlyInLine = 0.08715574274765817;  // sin 5 deg
 
 /// Returns its own path, or "members/3/joints/0": the statement in its member.
 std::string place_of(const NodeSpec& spec, std::size_t index) {
@@ -114,7 +112,7 @@ Meeting meeting(const NodeSpec& spec, std::size_t p, std::size_t q) {
   const Meeting nearest{w.cross(v).dot(n) / square, w.cross(u).dot(n) / square};
   const double near = w.norm() + std::max(spec.members[p / 2].reach(), spec.members[q / 2].reach());
   const bool far = std::max(std::abs(nearest.s), std::abs(nearest.t)) > near;
-  return opposed && square < kNearlyInLine * kNearlyInLine && far ? Meeting{midway, midway}
+  return opposed && square < kNearParallel * kNearParallel && far ? Meeting{midway, midway}
                                                                   : nearest;
 }
 
@@ -163,6 +161,16 @@ void face(const NodeSpec& spec, std::size_t p, std::size_t q, const Vector3d& no
 Result<void> mitre(const NodeSpec& spec, std::size_t index, Joined& joined, Applied& out) {
   const auto a = spec.joints[index].member, b = spec.joints[index].with;
   const auto [p, q] = facing_ends(spec, a, b);
+  const auto* within = std::get_if<Within>(&spec.connect);
+  const double most = far_end(spec.members[a], spec.members[b]) + (within ? within->distance : 0.0);
+  if (const double off = (point_of(spec, p) - point_of(spec, q)).norm(); off > most)
+    return fail({.code = ErrorCode::no_contact,
+                 .member = place_of(spec, index),
+                 .got = off,
+                 .limit = most,
+                 .unit = "mm",
+                 .hint = "the ends that face each other are too far apart; move them together, or, "
+                         "if one member goes on past the other, join them by set_on"});
   const Vector3d u = into(spec, p), v = into(spec, q);
   const auto& first = spec.members[a];
   const auto& second = spec.members[b];
@@ -194,6 +202,15 @@ tl::unexpected<Error> apart(const NodeSpec& spec, std::size_t index, const std::
   return fail({.code = ErrorCode::no_contact, .member = place_of(spec, index), .hint = hint});
 }
 
+/// Checks that one of two members passes through the other.
+Result<void> check_passing(const NodeSpec& spec, std::size_t index) {
+  auto branch = spec.joints[index].member, chord = spec.joints[index].with;
+  if (which_passes(spec.members[branch], spec.members[chord]) == Passing::second)
+    std::swap(branch, chord);
+  return check_passes({spec.members[branch], called(spec, branch)},
+                      {spec.members[chord], called(spec, chord)}, place_of(spec, index) + "/kind");
+}
+
 Result<void> apply(const NodeSpec& spec, const Lines& lines, std::size_t index, Joined& joined,
                    Applied& out) {
   const auto a = spec.joints[index].member, b = spec.joints[index].with;
@@ -204,6 +221,7 @@ Result<void> apply(const NodeSpec& spec, const Lines& lines, std::size_t index, 
     const double reach = p.reach() + q.reach();
     if (!(nearness(Stretch{p.start, p.finish}, Stretch{q.start, q.finish}) < reach))
       return apart(spec, index, "the two do not reach each other");
+    TRY(check_passing(spec, index));
     part(joined, a, b);
     part(joined, b, a);
     return {};
@@ -262,6 +280,14 @@ Result<Applied> apply_joints(const NodeSpec& spec, const Lines& lines, Joined& j
     TRY(apply(spec, lines, i, joined, out));
   }
   return out;
+}
+
+void part_passing(const NodeSpec& spec, Joined& joined) {
+  for (const auto& said : spec.joints) {
+    if (said.joint.kind != JointKind::through) continue;
+    part(joined, said.member, said.with);
+    part(joined, said.with, said.member);
+  }
 }
 
 void join_lines(const NodeSpec& spec, const Lines& lines, Joined& joined, Applied& out) {

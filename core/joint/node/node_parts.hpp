@@ -27,14 +27,17 @@ namespace tubecut::joint::detail {
 /// The members that join each end: others in index order, with their distances.
 using Joined = std::vector<std::vector<Touch>>;
 /// Errors  as `solve`, of members and links.
-[[nodiscard]] Result<Joined> connected(const NodeSpec& spec, const std::stop_token& stop);
+[[nodiscard]] Result<Joined> connected(const NodeSpec& spec);
 
 /// For each end that joins nothing, the member that was probably intended: the nearest within three
-/// times the reach, unless the member's other end already joins that one, because a short branch is
-/// always near.
+/// times the reach. Unless the member's other end already joins that one, because a short branch is
+/// always near; or that one ends on the member, which runs past it; or the two lie next to each
+/// other.
 using Missed = std::vector<std::optional<Touch>>;
-[[nodiscard]] Result<Missed> missed(const NodeSpec& spec, const Joined& joined,
-                                    const std::stop_token& stop);
+[[nodiscard]] Result<Missed> missed(const NodeSpec& spec, const Joined& joined);
+
+inline constexpr double kInLine = 0.00872653549837393;  // sin 0.5 deg: two ends face each other
+inline constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg
 
 /// The plane of a mitre at one of its two ends, along the world's axes: `point` from the end,
 /// `normal` into its member.
@@ -85,11 +88,19 @@ struct Short {
 [[nodiscard]] Short short_of(const NodeSpec& spec, const Lines& lines, std::size_t end,
                              const Eigen::Vector3d& at);
 
+/// Returns the distance, mm, from which on an end is not taken for one of a stated joint, because
+/// the cut would move it by more than anybody draws it short or long.
+[[nodiscard]] inline double far_end(const Member& a, const Member& b) {
+  return 1.5 * (a.reach() + b.reach());
+}
+
 /// Applies the stated joints to the joining members: members that pass through each other are
 /// separated; mitred members join only at the two ends that are nearest to each other.
 /// Errors  joint_contradicts, no_contact, out_of_range (members/i/joints/j).
 [[nodiscard]] Result<Applied> apply_joints(const NodeSpec& spec, const Lines& lines,
                                            Joined& joined);
+/// Separates members of which one is stated to pass through the other, without further checks.
+void part_passing(const NodeSpec& spec, Joined& joined);
 /// Mitres the ends in line without a stated joint and without anything between them.
 void join_lines(const NodeSpec& spec, const Lines& lines, Joined& joined, Applied& out);
 

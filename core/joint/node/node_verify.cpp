@@ -6,6 +6,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/joint/node/node.hpp"
 
 namespace tubecut::joint {
@@ -181,10 +182,10 @@ double wrong_cuts(const NodeSpec& spec, const Nodes& nodes) {
 
 }  // namespace
 
-std::vector<Check> verify(const NodeSpec& spec, const Nodes& nodes, const std::stop_token& stop) {
+std::vector<Check> verify(const NodeSpec& spec, const Nodes& nodes) {
   Worst worst;
   for (const auto& end : nodes.ends) {
-    if (stop.stop_requested()) return {};
+    if (stopped()) return {};
     worsen(worst.frame, frame_error(spec, end));
     for (const auto& cut : end.cut_by) see(spec, end, cut, worst);
   }

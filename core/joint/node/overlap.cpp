@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/joint/finished.hpp"
 #include "core/joint/node/node_parts.hpp"
 
@@ -94,12 +95,11 @@ void see(const Finished& m, const Finished& other, const MetalPoint& place, Deep
 }
 
 /// Climbs from a point by steps that halve.
-void climb(const Finished& m, const Finished& other, MetalPoint from, const std::stop_token& stop,
-           Deepest& out) {
+void climb(const Finished& m, const Finished& other, MetalPoint from, Deepest& out) {
   double turn = kTwoPi / kGenerators, along = 1.0 / kAlong;
   for (int k = 0; k < kHalvings; ++k, turn *= 0.5, along *= 0.5) {
     bool better = true;
-    for (int moves = 0; better && moves < kMoves && !stop.stop_requested(); ++moves) {
+    for (int moves = 0; better && moves < kMoves && !stopped(); ++moves) {
       better = false;
       for (const auto& [dphi, dshare] : {std::pair{turn, 0.0}, std::pair{-turn, 0.0},
                                          std::pair{0.0, along}, std::pair{0.0, -along}}) {
@@ -119,18 +119,18 @@ void keep_deeper(const Deepest& one, Deepest& out) {
 }
 
 /// Samples the wall's generators at evenly spaced points inside the other.
-void deepen(const Finished& m, const Finished& other, const std::stop_token& stop, Deepest& out) {
+void deepen(const Finished& m, const Finished& other, Deepest& out) {
   for (const double rho : walls(m)) {
     Deepest own;
     MetalPoint best{rho, 0.0, 0.0};
-    for (int i = 0; i < kGenerators && !stop.stop_requested(); ++i)
+    for (int i = 0; i < kGenerators && !stopped(); ++i)
       for (int k = 0; k <= kAlong; ++k) {
         const MetalPoint place{rho, kTwoPi * i / kGenerators, static_cast<double>(k) / kAlong};
         const double before = own.depth;
         see(m, other, place, own);
         if (own.depth > before) best = place;
       }
-    if (own.depth > 0.0) climb(m, other, best, stop, own);
+    if (own.depth > 0.0) climb(m, other, best, own);
     keep_deeper(own, out);
   }
 }
@@ -152,8 +152,7 @@ double nearest_turn(const Finished& m, const Vector3d& point) {
 
 /// Searches from a point that both share, at its own radius and at those of the wall: finds
 /// features that are thinner than the steps between generators.
-void deepen_from(const Finished& m, const Finished& other, const Vector3d& shared,
-                 const std::stop_token& stop, Deepest& out) {
+void deepen_from(const Finished& m, const Finished& other, const Vector3d& shared, Deepest& out) {
   const Vector3d from = shared - m.start;
   const double z = from.dot(m.axis);
   const Vector3d beside = m.first.frame.rows * (from - z * m.axis);
@@ -169,7 +168,7 @@ void deepen_from(const Finished& m, const Finished& other, const Vector3d& share
     const MetalPoint place{rho, phi, std::clamp((z - r.from) / (r.to - r.from), 0.0, 1.0)};
     Deepest own;
     see(m, other, place, own);
-    climb(m, other, place, stop, own);
+    climb(m, other, place, own);
     keep_deeper(own, out);
   }
 }
@@ -215,8 +214,7 @@ Box bounds_of(const Member& m) {
 /// returns false: along x, over the boxes that have begun and not ended. Returns false when
 /// cancelled.
 template <class F>
-bool near_pairs(const NodeSpec& spec, std::optional<std::size_t> only, const std::stop_token& stop,
-                F visit) {
+bool near_pairs(const NodeSpec& spec, std::optional<std::size_t> only, F visit) {
   const auto& m = spec.members;
   std::vector<Box> boxes;
   for (const auto& one : m) boxes.push_back(bounds_of(one));
@@ -226,14 +224,14 @@ bool near_pairs(const NodeSpec& spec, std::optional<std::size_t> only, const std
   for (const auto i : order) {
     std::erase_if(open, [&](std::size_t j) { return boxes[j].high.x() < boxes[i].low.x(); });
     for (const auto j : open) {
-      if (stop.stop_requested()) return false;
+      if (stopped()) return false;
       if ((only && *only != i && *only != j) || boxes[j].misses(boxes[i])) continue;
       if (!(nearness(stretch(m[i]), stretch(m[j])) < m[i].reach() + m[j].reach())) continue;
       if (!visit(std::min(i, j), std::max(i, j))) return true;
     }
     open.push_back(i);
   }
-  return !stop.stop_requested();
+  return !stopped();
 }
 
 /// Members after their ends are cut, each computed on first use.
@@ -254,16 +252,14 @@ class FinishedMembers {
   std::vector<std::optional<Finished>> made_;
 };
 
-std::optional<Overlap> overlap(FinishedMembers& members, std::size_t a, std::size_t b,
-                               const std::stop_token& stop) {
+std::optional<Overlap> overlap(FinishedMembers& members, std::size_t a, std::size_t b) {
   const auto &one = members[a], &two = members[b];
-  const auto shared = detail::shared_metal(one, two, stop);
+  const auto shared = detail::shared_metal(one, two);
   if (!shared) return std::nullopt;
   Deepest deepest{std::min(depth(one, *shared), depth(two, *shared)), *shared};
   for (const auto& [m, other] : {std::pair{&one, &two}, std::pair{&two, &one}}) {
-    deepen(*m, *other, stop, deepest);
-    if (deepest.depth < kThin * (one.outer + two.outer))
-      deepen_from(*m, *other, *shared, stop, deepest);
+    deepen(*m, *other, deepest);
+    if (deepest.depth < kThin * (one.outer + two.outer)) deepen_from(*m, *other, *shared, deepest);
   }
   return Overlap{a, b, deepest.depth, deepest.at};
 }
@@ -284,13 +280,12 @@ tl::unexpected<Error> too_many_overlaps(std::size_t pairs) {
 }
 
 Result<std::vector<Overlap>> overlaps(const NodeSpec& spec, const Nodes& nodes,
-                                      std::optional<std::size_t> only, const std::stop_token& stop,
-                                      const Beside& beside) {
+                                      std::optional<std::size_t> only, const Beside& beside) {
   const auto stated = stated_apart(spec);
   // Count first, so that too many pairs are rejected at once and not after all permitted pairs were
   // checked.
   std::size_t near = 0;
-  if (!near_pairs(spec, only, stop, [&](std::size_t a, std::size_t b) {
+  if (!near_pairs(spec, only, [&](std::size_t a, std::size_t b) {
         if (!settled(nodes, stated, a, b)) ++near;
         return near <= kMostNearPairs;
       }))
@@ -299,9 +294,9 @@ Result<std::vector<Overlap>> overlaps(const NodeSpec& spec, const Nodes& nodes,
     return too_many(near, kMostNearPairs, "come nearer than their radii and do not cut each other");
   std::vector<Overlap> out;
   FinishedMembers members(spec, nodes, beside);
-  if (!near_pairs(spec, only, stop, [&](std::size_t a, std::size_t b) {
+  if (!near_pairs(spec, only, [&](std::size_t a, std::size_t b) {
         if (settled(nodes, stated, a, b)) return true;
-        if (const auto one = overlap(members, a, b, stop)) out.push_back(*one);
+        if (const auto one = overlap(members, a, b)) out.push_back(*one);
         return out.size() <= kMostOverlaps;
       }))
     return fail({.code = ErrorCode::cancelled});

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/joint/node/node.hpp"
@@ -38,7 +37,6 @@ using Beside = std::vector<std::vector<Cutter>>;
 /// Source    docs/theory/intersections-and-bevels.md, section 1.4.
 [[nodiscard]] Result<std::vector<Overlap>> overlaps(const NodeSpec& spec, const Nodes& nodes,
                                                     std::optional<std::size_t> only = {},
-                                                    const std::stop_token& stop = {},
                                                     const Beside& beside = {});
 
 /// Returns the error of more than `kMostOverlaps`.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/joint/finished.hpp"
 
 namespace tubecut::joint::detail {
@@ -109,7 +110,7 @@ class Search {
     curved_ = !other.first.seats.empty() || !other.last.seats.empty();
   }
 
-  std::optional<Vector3d> run(const std::stop_token& stop) {
+  std::optional<Vector3d> run() {
     const double half = 0.5 * (m_.outer - m_.inner);
     for (int k = 0; k < kAround; ++k)
       cells_.push_back({kTwoPi * k / kAround,
@@ -118,7 +119,7 @@ class Search {
                         std::max(0.0, half - kHalf),
                         {-kFar, kFar}});
     for (std::size_t next = 0; next < cells_.size() && next < kMostCells; ++next) {
-      if (next % kBetweenLooks == 0 && stop.stop_requested()) return std::nullopt;
+      if (next % kBetweenLooks == 0 && stopped()) return std::nullopt;
       const auto cell = cells_[next];  // a copy, because the list grows
       if (auto found = check_cell(cell)) return found;
     }
@@ -307,8 +308,7 @@ bool parted(const Finished& m, const Finished& other, Interval z) {
 
 }  // namespace
 
-std::optional<Vector3d> shared_metal(const Finished& a, const Finished& b,
-                                     const std::stop_token& stop) {
+std::optional<Vector3d> shared_metal(const Finished& a, const Finished& b) {
   const auto on_a = extent(a), on_b = extent(b);
   if (on_a.empty() || on_b.empty()) return std::nullopt;
   if (clear_of(a, on_a, b, on_b) || clear_of(b, on_b, a, on_a)) return std::nullopt;
@@ -316,7 +316,7 @@ std::optional<Vector3d> shared_metal(const Finished& a, const Finished& b,
   if ((a.section || b.section) &&
       (beside(a, on_a, b, on_b) || in_its_bore(a, on_a, b) || in_its_bore(b, on_b, a)))
     return std::nullopt;
-  return a.outer <= b.outer ? Search(a, b).run(stop) : Search(b, a).run(stop);
+  return a.outer <= b.outer ? Search(a, b).run() : Search(b, a).run();
 }
 
 }  // namespace tubecut::joint::detail

@@ -24,10 +24,10 @@ constexpr std::array kBrackets = {1e-9, 1e-7, 1e-5, 1e-4, 1e-3};  // of a flat's
 
 // ---- arcs: a round target about their own centre
 
-PieceEvents on_arc(const PieceSpec& spec, const section::Piece& arc, const std::stop_token& stop) {
+PieceEvents on_arc(const PieceSpec& spec, const section::Piece& arc) {
   std::vector<PreparedCutter> cutters;
   for (const auto& cutter : spec.cutters) cutters.push_back(seen_from(cutter, arc.origin));
-  EventPhases found(cutters, arc.radius, stop);
+  EventPhases found(cutters, arc.radius);
   PieceEvents out;
   const double turn = arc.length / arc.radius;
   const auto take = [&](double phi, const auto& add) {
@@ -196,9 +196,8 @@ class Flat {
 
 }  // namespace
 
-PieceEvents piece_events(const PieceSpec& spec, const section::Piece& piece,
-                         const std::stop_token& stop) {
-  return piece.is_arc() ? on_arc(spec, piece, stop) : Flat(spec, piece).find();
+PieceEvents piece_events(const PieceSpec& spec, const section::Piece& piece) {
+  return piece.is_arc() ? on_arc(spec, piece) : Flat(spec, piece).find();
 }
 
 std::array<bool, 4> grazed_faces(const PreparedCutter& cutter, const section::Curve& curve) {

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/joint/section/section_place.hpp"
@@ -33,8 +32,7 @@ struct PieceSpec {
   const section::Curve& curve;
   double wide, scan;
 };
-[[nodiscard]] PieceEvents piece_events(const PieceSpec& spec, const section::Piece& piece,
-                                       const std::stop_token& stop);
+[[nodiscard]] PieceEvents piece_events(const PieceSpec& spec, const section::Piece& piece);
 
 /// Returns true if these cutters have one surface, to rounding; false if one is an elbow.
 [[nodiscard]] bool same_surface(const PreparedCutter& a, const PreparedCutter& b, double wide);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/cutters/elbow_leg.hpp"
 #include "core/joint/section/piece_events.hpp"
@@ -27,8 +28,7 @@ using Label = std::optional<std::size_t>;
 /// Finds the events of one outline.
 class Divider {
  public:
-  Divider(SectionContour& out, const std::stop_token& stop)
-      : out_(out), curve_(out.curve), stop_(stop), met_(out.cutters.size(), false) {
+  Divider(SectionContour& out) : out_(out), curve_(out.curve), met_(out.cutters.size(), false) {
     for (std::size_t i = 0; i < out.cutters.size(); ++i) {
       const bool repeats = std::ranges::any_of(active_, [&](std::size_t j) {
         return detail::same_surface(out.cutters[j], out.cutters[i], curve_.reach());
@@ -39,7 +39,7 @@ class Divider {
 
   Result<void> divide() {
     collect();
-    if (stop_.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     for (std::size_t k = 0; k < places_.size(); ++k)
       labels_.push_back(label_at(0.5 * (places_[k] + after(k))));
     if (places_.empty()) labels_.push_back(label_at(0.5));
@@ -85,8 +85,8 @@ class Divider {
                                  .scan = curve_.girth() / kScanPlaces};
     std::vector<double> found;
     for (const auto& piece : curve_.pieces()) {
-      if (stop_.stop_requested()) return;
-      auto own = detail::piece_events(spec, piece, stop_);
+      if (stopped()) return;
+      auto own = detail::piece_events(spec, piece);
       for (const double s : own.places) found.push_back(turned(s));
       for (const auto& kink : own.kinks) kinks_.push_back({turned(kink.s), kink.cutter});
       for (const auto& one : own.hidden) hidden_.push_back({one.cutter, turned(one.s)});
@@ -193,7 +193,6 @@ class Divider {
 
   SectionContour& out_;
   const Curve& curve_;
-  const std::stop_token& stop_;
   std::vector<std::size_t> active_;  // no other description of an earlier one
   std::vector<bool> met_;
   std::vector<double> places_;  // ascending, [0, girth)
@@ -254,8 +253,7 @@ Result<std::vector<PreparedCutter>> prepared(std::span<const Cutter> cutters, do
 
 namespace {
 
-Result<SectionContour> divided(std::span<const Cutter> cutters, const Curve& curve, bool closed,
-                               const std::stop_token& stop) {
+Result<SectionContour> divided(std::span<const Cutter> cutters, const Curve& curve, bool closed) {
   if (cutters.empty()) return fail({.code = ErrorCode::wrong_count, .member = "cutters"});
   SectionContour out{.curve = curve,
                      .cutters = {},
@@ -269,7 +267,7 @@ Result<SectionContour> divided(std::span<const Cutter> cutters, const Curve& cur
   for (std::size_t i = 0; i < out.cutters.size(); ++i)
     if (sin_inclination(out.cutters[i]) < kNearParallel) out.near_parallel.push_back(i);
   for (const auto& cutter : out.cutters) out.grazed.push_back(detail::grazed_faces(cutter, curve));
-  Divider divider(out, stop);
+  Divider divider(out);
   TRY(divider.divide());
   if (closed) {
     TRY(divider.check_closed());
@@ -280,13 +278,11 @@ Result<SectionContour> divided(std::span<const Cutter> cutters, const Curve& cur
 
 }  // namespace
 
-Result<SectionContour> trace(std::span<const Cutter> cutters, const Curve& curve,
-                             const std::stop_token& stop) {
-  return divided(cutters, curve, true, stop);
+Result<SectionContour> trace(std::span<const Cutter> cutters, const Curve& curve) {
+  return divided(cutters, curve, true);
 }
-Result<SectionContour> trace_met(std::span<const Cutter> cutters, const Curve& curve,
-                                 const std::stop_token& stop) {
-  return divided(cutters, curve, false, stop);
+Result<SectionContour> trace_met(std::span<const Cutter> cutters, const Curve& curve) {
+  return divided(cutters, curve, false);
 }
 
 double SectionContour::height(std::size_t cutter, const Station& at) const {

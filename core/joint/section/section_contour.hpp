@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -66,12 +65,10 @@ struct SectionContour {
 /// Accuracy  junction and jump s within 1e-9 mm; the lost z of a jump within 1e-5 mm.
 /// Source    docs/theory/sections.md, section 2.
 [[nodiscard]] Result<SectionContour> trace(std::span<const Cutter> cutters,
-                                           const section::Curve& curve,
-                                           const std::stop_token& stop = {});
+                                           const section::Curve& curve);
 /// The same of an outline that need not meet a partner everywhere, or any.
 [[nodiscard]] Result<SectionContour> trace_met(std::span<const Cutter> cutters,
-                                               const section::Curve& curve,
-                                               const std::stop_token& stop = {});
+                                               const section::Curve& curve);
 
 /// Returns the segment that holds s ([0, girth)); at an event the one that begins there.
 [[nodiscard]] const SectionSegment& segment_at(const SectionContour& contour, double s);

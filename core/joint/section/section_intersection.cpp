@@ -15,8 +15,8 @@ namespace {
 using section::Station;
 
 Result<SectionProfile> profile(const SectionContour& contour, const Sampling& sampling, bool outer,
-                               std::span<const double> also, const std::stop_token& stop) {
-  TRY(const auto samples, sample(contour, sampling, also, stop));
+                               std::span<const double> also) {
+  TRY(const auto samples, sample(contour, sampling, also));
   SectionProfile out{.outer = outer,
                      .at = {},
                      .z = {},
@@ -191,15 +191,15 @@ std::vector<Warning> partner_warnings(const SectionContour& contour) {
   return out;
 }
 
-Result<SectionIntersection> intersect(const section::Section& section, const IntersectionSpec& spec,
-                                      const std::stop_token& stop) {
+Result<SectionIntersection> intersect(const section::Section& section,
+                                      const IntersectionSpec& spec) {
   TRY(const auto cutters, resolve(spec.partners));
   const section::Wall wall(section);
   SectionIntersection out;
   for (const bool outer : {false, true}) {
     if (spec.surfaces == (outer ? Surfaces::inner : Surfaces::outer)) continue;
-    TRY(const auto contour, trace(cutters, outer ? wall.outer() : wall.bore(), stop));
-    TRY(auto curve, profile(contour, spec.sampling, outer, other_seams(wall, outer), stop));
+    TRY(const auto contour, trace(cutters, outer ? wall.outer() : wall.bore()));
+    TRY(auto curve, profile(contour, spec.sampling, outer, other_seams(wall, outer)));
     TRY(check_length(spec.target, curve.z));
     out.profiles.push_back(std::move(curve));
     out.warnings = partner_warnings(contour);  // of the outer surface when both are asked for

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -32,8 +31,7 @@ struct SectionIntersection {
 /// Errors  those of `resolve`, `trace` and `sample`; member_consumed (target/length).
 /// Source  docs/theory/sections.md, section 2.
 [[nodiscard]] Result<SectionIntersection> intersect(const section::Section& section,
-                                                    const IntersectionSpec& spec,
-                                                    const std::stop_token& stop = {});
+                                                    const IntersectionSpec& spec);
 
 /// Verifies the answer in 3D: places by their distance from the outline, distances from partners,
 /// heights by other formulas.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/angle.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/section/section_length.hpp"
 
@@ -109,11 +110,10 @@ class Nodes {
   Nodes(const SectionContour& contour, const Sampling& sampling)
       : contour_(contour), sampling_(sampling), girth_(contour.curve.girth()) {}
 
-  Result<std::vector<SectionNode>> by_tolerance(std::span<const double> also,
-                                                const std::stop_token& stop) {
+  Result<std::vector<SectionNode>> by_tolerance(std::span<const double> also) {
     Refiner refiner(contour_, *sampling_.tolerance, sampling_.max_nodes);
     for (std::size_t k = 0; k < contour_.segments.size(); ++k) {
-      if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+      if (stopped()) return fail({.code = ErrorCode::cancelled});
       if (!contour_.events.empty()) append(contour_.events[k]);
       append(k, refiner, also);
       if (nodes_.size() > sampling_.max_nodes) return too_many(nodes_.size(), sampling_.max_nodes);
@@ -228,7 +228,7 @@ class Nodes {
 }  // namespace
 
 Result<SectionSamples> sample(const SectionContour& contour, const Sampling& sampling,
-                              std::span<const double> also, const std::stop_token& stop) {
+                              std::span<const double> also) {
   const auto& tolerance = sampling.tolerance;
   if (tolerance ? !(tolerance->value > 0.0) : sampling.uniform_points == 0)
     return fail({.code = ErrorCode::out_of_range, .member = "sampling"});
@@ -237,7 +237,7 @@ Result<SectionSamples> sample(const SectionContour& contour, const Sampling& sam
   Nodes make(contour, sampling);
   SectionSamples out;
   if (tolerance) {
-    TRY(out.nodes, make.by_tolerance(also, stop));
+    TRY(out.nodes, make.by_tolerance(also));
   } else {
     out.nodes = make.grid();
   }

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "core/joint/sampling.hpp"
@@ -35,7 +34,6 @@ struct SectionSamples {
 /// Errors    too_many_nodes (sampling), cancelled, out_of_range.
 /// Source    docs/theory/sections.md, section 2.4.
 [[nodiscard]] Result<SectionSamples> sample(const SectionContour& contour, const Sampling& sampling,
-                                            std::span<const double> also = {},
-                                            const std::stop_token& stop = {});
+                                            std::span<const double> also = {});
 
 }  // namespace tubecut::joint

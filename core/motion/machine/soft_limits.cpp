@@ -21,7 +21,7 @@ Issue soft_limit(const Axis& axis, std::size_t index, bool upper, double value, 
 }  // namespace
 
 Result<void> check_soft_limits(const Path& path, const std::vector<AxisFunction>& axes,
-                               const Machine& machine, bool has_phi, const std::stop_token& stop) {
+                               const Machine& machine, bool has_phi) {
   std::vector<Issue> issues;
   for (std::size_t a = 0; a < axes.size(); ++a) {
     const Axis& axis = machine.axes[a];
@@ -29,7 +29,7 @@ Result<void> check_soft_limits(const Path& path, const std::vector<AxisFunction>
       const auto& bound = upper ? axis.soft_max : axis.soft_min;
       if (!bound) continue;
       double worst = 0.0, value = 0.0, at = 0.0;
-      for (std::size_t j = 0; j <= path.intervals() && !stops(stop, j); ++j) {
+      for (std::size_t j = 0; j <= path.intervals() && !stops(j); ++j) {
         const std::size_t i = j == path.intervals() ? j - 1 : j;
         const Coordinates x = path.at(i, j == i ? 0.0 : path.d);
         const double q = axes[a].at(x);

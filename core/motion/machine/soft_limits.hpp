@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -18,7 +17,6 @@ namespace tubecut::motion {
 ///         the axis' unit.
 [[nodiscard]] Result<void> check_soft_limits(const Path& path,
                                              const std::vector<AxisFunction>& axes,
-                                             const Machine& machine, bool has_phi,
-                                             const std::stop_token& stop);
+                                             const Machine& machine, bool has_phi);
 
 }  // namespace tubecut::motion

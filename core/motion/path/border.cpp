@@ -54,14 +54,13 @@ bool crosses_above(Flat p, Flat a, Flat b) {
 /// Computes the signed distance to the border on one surface: positive inside the kept part. Boxes
 /// that are too far away to contain the nearest chord, and are neither above nor below the point,
 /// are skipped.
-double depth(const PartBorder& part, const CutPoint& point, Slope tan, const BorderWall& wall,
-             const std::stop_token& stop) {
+double depth(const PartBorder& part, const CutPoint& point, Slope tan, const BorderWall& wall) {
   const Flat p = on_surface(part, point, tan, wall.rho);
   const auto& boxes = wall.line.boxes;
   double bound = 1e300, nearest = 1e300;
   for (const auto& box : boxes) bound = std::min(bound, most_distance(p, box));
   bool odd = false;
-  for (std::size_t k = 0; k < boxes.size() && !stop.stop_requested(); ++k) {
+  for (std::size_t k = 0; k < boxes.size() && !stopped(); ++k) {
     const bool beside = p.s < boxes[k].low.s || boxes[k].high.s < p.s;
     if (beside && least_distance(p, boxes[k]) > bound) continue;
     each_chord(wall.line, k, [&](Flat a, Flat b) {
@@ -81,15 +80,14 @@ CutPoint wrapped(const PartBorder& part, CutPoint p) {
 
 /// Computes the depth with the neighbouring revolutions, because a point near the seam of a ring
 /// may be nearest to one of them.
-double depth_on_ring(const PartBorder& part, const CutPoint& p, Slope tan, const BorderWall& wall,
-                     const std::stop_token& stop) {
-  const double here = depth(part, p, tan, wall, stop);
+double depth_on_ring(const PartBorder& part, const CutPoint& p, Slope tan, const BorderWall& wall) {
+  const double here = depth(part, p, tan, wall);
   if (part.cut.turns == 0) return here;
   double nearest = std::abs(here);
   for (const double turn : {-kTwoPi, kTwoPi}) {
     CutPoint moved = p;
     moved.phi += turn;
-    nearest = std::min(nearest, std::abs(depth(part, moved, tan, wall, stop)));
+    nearest = std::min(nearest, std::abs(depth(part, moved, tan, wall)));
   }
   return here < 0.0 ? -nearest : nearest;
 }
@@ -177,14 +175,14 @@ struct SmoothTrack {
   double sag = 0.0;  // mm
 };
 
-SmoothTrack smooth_border(const Track& track, const std::stop_token& stop) {
+SmoothTrack smooth_border(const Track& track) {
   constexpr double kSag = 0.002;  // mm
   constexpr double kMostPieces = 32.0;
   SmoothTrack out{track, 0.0};
   if (!track.closed) return out;
   const BorderCurve curve(track);
   out.track.points.clear();
-  for (std::size_t i = 0; i + 1 < track.points.size() && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i + 1 < track.points.size() && !stops(i); ++i) {
     const double sag = curve.sag(i);
     out.sag = std::max(out.sag, sag);
     out.track.points.push_back(track.points[i]);
@@ -199,10 +197,10 @@ SmoothTrack smooth_border(const Track& track, const std::stop_token& stop) {
 
 }  // namespace
 
-Result<PartBorder> part_border(const CutPath& cut_path, double sigma, const std::stop_token& stop) {
+Result<PartBorder> part_border(const CutPath& cut_path, double sigma) {
   TRY(const auto whole, track(cut_path));
-  SmoothTrack border = smooth_border(whole, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  SmoothTrack border = smooth_border(whole);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   const auto& points = border.track.points;
   const auto [low, high] = std::ranges::minmax(points, {}, &CutPoint::phi);
   const double from = border.track.turns == 0 ? 0.5 * (low.phi + high.phi) - kPi : low.phi;
@@ -215,8 +213,8 @@ Result<PartBorder> part_border(const CutPath& cut_path, double sigma, const std:
                  .from_phi = from};
   const double middle = 0.5 * (out.inner_radius + out.outer_radius);
   for (const double rho : {out.inner_radius, middle, out.outer_radius})
-    if (!stop.stop_requested()) out.walls.push_back(wall_of(out, rho));
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (!stopped()) out.walls.push_back(wall_of(out, rho));
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 
@@ -224,12 +222,12 @@ Flat on_wall(const PartBorder& part, const CutPoint& p, double rho) {
   return on_surface(part, p, slope_of(p), rho);
 }
 
-double intrusion(const PartBorder& part, const CutPoint& point, const std::stop_token& stop) {
+double intrusion(const PartBorder& part, const CutPoint& point) {
   const CutPoint p = wrapped(part, point);
   const Slope tan = slope_of(p);
   double deepest = -1e300;
   for (const auto& wall : part.walls)
-    deepest = std::max(deepest, depth_on_ring(part, p, tan, wall, stop));
+    deepest = std::max(deepest, depth_on_ring(part, p, tan, wall));
   return deepest;
 }
 

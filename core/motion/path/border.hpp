@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/path/chords.hpp"
@@ -33,8 +32,7 @@ struct PartBorder {
 ///
 /// Errors  those of `track`; cancelled.
 /// Source  docs/theory/pulse-schedules.md, section 2.3.
-[[nodiscard]] Result<PartBorder> part_border(const CutPath& cut_path, double sigma,
-                                             const std::stop_token& stop);
+[[nodiscard]] Result<PartBorder> part_border(const CutPath& cut_path, double sigma);
 
 /// Computes where the beam at a point meets the surface of radius `rho`, mm, developed there. If it
 /// misses, returns its nearest point. On a section every depth is developed by the girth outside,
@@ -45,7 +43,6 @@ struct PartBorder {
 /// Computes how far, in mm, the beam at a point extends into the finished part, over both wall
 /// surfaces and their middle. Negative: its distance. Zero on the cut itself. The torch line
 /// already includes half the kerf.
-[[nodiscard]] double intrusion(const PartBorder& part, const CutPoint& point,
-                               const std::stop_token& stop = {});
+[[nodiscard]] double intrusion(const PartBorder& part, const CutPoint& point);
 
 }  // namespace tubecut::motion

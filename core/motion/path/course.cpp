@@ -13,9 +13,9 @@ namespace {
 
 /// Computes length over speed, segment by segment with the fastest speed of each: a lower bound for
 /// any schedule of the polyline.
-void measure(PreparedCut& job, const std::stop_token& stop) {
+void measure(PreparedCut& job) {
   const std::vector<double> s = job.program.lengths();
-  for (std::size_t i = 1; i < job.program.size() && !stops(stop, i); ++i) {
+  for (std::size_t i = 1; i < job.program.size() && !stops(i); ++i) {
     const double step = tip_length(job.course.tip, job.program, i - 1, i);
     job.length += step;
     job.ideal += step / job.course.speed.greatest(s[i - 1], s[i]);
@@ -151,12 +151,12 @@ double way_to(const double* now, std::vector<double>& before) {
 /// exceed the last place. The values are those of the moving axes, then of `beside`.
 template <class See>
 void walk(const Course& course, const std::vector<Place>& places,
-          const std::vector<AxisFunction>& beside, const std::stop_token& stop, const See& see) {
+          const std::vector<AxisFunction>& beside, const See& see) {
   std::vector<AxisFunction> functions = moving(course);
   functions.insert(functions.end(), beside.begin(), beside.end());
   ValueCursor cursor(course.path, functions);
   std::vector<Watched> axes = watched(course, cursor.at({}));
-  for (std::size_t k = 0; k < places.size() + kRest && !stops(stop, k); ++k) {
+  for (std::size_t k = 0; k < places.size() + kRest && !stops(k); ++k) {
     const auto& values = cursor.at(places[std::min(k, places.size() - 1)]);
     for (std::size_t a = 0; a < axes.size(); ++a) axes[a].differences.push(values[a]);
     see(k, axes, values);
@@ -193,26 +193,25 @@ double tip_length(const std::vector<AxisFunction>& tip, const Program& program, 
   return std::sqrt(square);
 }
 
-Result<PreparedCut> prepare_cut(const ScheduleSpec& spec, std::stop_token stop) {
+Result<PreparedCut> prepare_cut(const ScheduleSpec& spec) {
   TRY(check(spec.machine));
   TRY(auto axes, axis_functions(spec));
-  TRY(auto polyline, program(spec, stop));
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  TRY(auto polyline, program(spec));
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   TRY(const double growth, standoff_growth(spec, polyline));
   TRY(auto speed, SpeedAlong::of(spec.motion.speed, polyline));
   PreparedCut job{std::move(polyline),
                   {{}, std::move(axes), speed_functions(spec), std::move(speed), {}, spec.machine},
                   growth};
-  measure(job, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  measure(job);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   TRY(check_periods(job, spec.max_periods));
   Course& course = job.course;
-  TRY(course.path, smooth_path(job.program, spec.motion.eps_tip, spec.motion.eps_b, stop));
+  TRY(course.path, smooth_path(job.program, spec.motion.eps_tip, spec.motion.eps_b));
   const bool has_phi = std::holds_alternative<CutPath>(spec.cut);
-  TRY(check_soft_limits(course.path, course.axes, course.machine, has_phi, stop));
-  course.limits =
-      path_limits(course.path, course.axes, course.tip, course.speed, course.machine, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  TRY(check_soft_limits(course.path, course.axes, course.machine, has_phi));
+  course.limits = path_limits(course.path, course.axes, course.tip, course.speed, course.machine);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   return job;
 }
 
@@ -229,12 +228,11 @@ double Uses::worst() const {
   return most;
 }
 
-Uses uses(const Course& course, const std::vector<Place>& places, bool jerk,
-          const std::stop_token& stop) {
+Uses uses(const Course& course, const std::vector<Place>& places, bool jerk) {
   Uses out;
   std::vector<Largest> largest(course.limits.axes.size());
   std::vector<double> tip(course.tip.size());
-  walk(course, places, course.tip, stop,
+  walk(course, places, course.tip,
        [&](std::size_t k, const std::vector<Watched>& axes, const std::vector<double>& values) {
          for (std::size_t a = 0; a < axes.size(); ++a) largest[a].note(axes[a].differences);
          const double step = way_to(values.data() + axes.size(), tip);
@@ -247,13 +245,13 @@ Uses uses(const Course& course, const std::vector<Place>& places, bool jerk,
   return out;
 }
 
-Ratios ratios(const Course& course, const std::vector<Place>& places, const std::stop_token& stop) {
+Ratios ratios(const Course& course, const std::vector<Place>& places) {
   Ratios out{std::vector<double>(places.size(), 0.0), std::vector<double>(places.size(), 0.0)};
   const auto note_at = [&](std::vector<double>& ratio, std::size_t k, double value) {
     double& at = ratio[std::min(k, places.size() - 1)];
     at = std::max(at, value);
   };
-  walk(course, places, {}, stop,
+  walk(course, places, {},
        [&](std::size_t k, const std::vector<Watched>& axes, const std::vector<double>&) {
          double acceleration = 0.0, jerk = 0.0;
          for (const Watched& w : axes) {

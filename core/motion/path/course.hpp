@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/path/path_limits.hpp"
@@ -45,7 +44,7 @@ struct PreparedCut {
 /// and of a replay.
 ///
 /// Errors  as `schedule`, except those of planning.
-[[nodiscard]] Result<PreparedCut> prepare_cut(const ScheduleSpec& spec, std::stop_token stop);
+[[nodiscard]] Result<PreparedCut> prepare_cut(const ScheduleSpec& spec);
 
 /// Returns the tip path of the polyline between two of its points, mm.
 [[nodiscard]] double tip_length(const std::vector<AxisFunction>& tip, const Program& program,
@@ -72,15 +71,13 @@ struct Uses {
 /// after, with the limits. Permits the rounding of the axis values themselves.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 6.6.
-[[nodiscard]] Uses uses(const Course& course, const std::vector<Place>& places, bool jerk,
-                        const std::stop_token& stop = {});
+[[nodiscard]] Uses uses(const Course& course, const std::vector<Place>& places, bool jerk);
 
 /// Ratios of differences to their limits at every place, the worst of the axes; 0 if all hold.
 struct Ratios {
   std::vector<double> acceleration = {};  // of the second difference with this place as its middle
   std::vector<double> jerk = {};          // of the third differences with this place in the middle
 };
-[[nodiscard]] Ratios ratios(const Course& course, const std::vector<Place>& places,
-                            const std::stop_token& stop = {});
+[[nodiscard]] Ratios ratios(const Course& course, const std::vector<Place>& places);
 
 }  // namespace tubecut::motion

@@ -8,6 +8,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/motion/path/automatic_start.hpp"
 #include "core/motion/path/stretch.hpp"
 
 namespace tubecut::motion {
@@ -217,44 +218,6 @@ bool is_corner(const Track& t, std::size_t i) {
   const double bx = t.radius * (b.phi - o.phi), bz = b.z - o.z, bb = 10.0 * (b.b - o.b);
   const double lengths = elementary::hypot(ax, az, ab) * elementary::hypot(bx, bz, bb);
   return ax * bx + az * bz + ab * bb < kCornerCos * lengths;
-}
-
-/// Computes the angle between the beam and the wall's normal.
-double tilt(const CutPoint& p) {
-  if (p.a == 0.0) return std::abs(p.b);
-  return elementary::atan(elementary::hypot(elementary::tan(p.a), elementary::tan(p.b)));
-}
-
-/// Reduces the distances to those from the ends of the flat that each point lies on; 0 on an arc.
-void keep_off_arcs(const Track& t, std::vector<double>& distance) {
-  const auto outside = t.section->outer();
-  for (std::size_t i = 0; i < distance.size(); ++i) {
-    const auto at = outside.at(t.radius * t.points[i].phi);
-    const double off = outside.half_flat(at.face) - std::abs(at.along);
-    distance[i] = at.on_corner ? 0.0 : std::min(distance[i], off);
-  }
-}
-
-/// Returns the point with the smallest tilt among those well away from corners; if there are none,
-/// the point farthest from corners.
-std::size_t automatic_start(const Track& t, const std::optional<Angle>& seam) {
-  std::vector<double> distance = from_corner(t);
-  for (std::size_t i = 0; seam && i < distance.size(); ++i) {
-    const double turned = std::remainder(t.points[i].phi - seam->rad(), kTwoPi);
-    distance[i] = std::min(distance[i], t.radius * std::abs(turned));
-  }
-  if (t.section) keep_off_arcs(t, distance);
-  std::size_t best = 0;
-  const auto better = [&](std::size_t a, std::size_t b) {
-    const bool a_clear = distance[a] >= kFromJunction, b_clear = distance[b] >= kFromJunction;
-    if (a_clear != b_clear) return a_clear;
-    if (!a_clear) return distance[a] > distance[b];
-    return tilt(t.points[a]) < tilt(t.points[b]);
-  };
-  for (std::size_t i = 1; i < distance.size(); ++i) {
-    if (better(i, best)) best = i;
-  }
-  return best;
 }
 
 Track reversed(Track t) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/path/stretch.hpp"
 
@@ -197,15 +198,14 @@ double lead_touch(const PartBorder& border, double eps_tip) {
   return kLeadTouch + std::min(border.sag, eps_tip);
 }
 
-Result<void> check_clear(const CutWithLead& cut, const PartBorder& part, double eps_tip,
-                         const std::stop_token& stop) {
+Result<void> check_clear(const CutWithLead& cut, const PartBorder& part, double eps_tip) {
   if (!part.cut.closed) return {};
   const double allowed = lead_touch(part, eps_tip);
   for (std::size_t i = 0; i < cut.points.size(); ++i) {
     if (i >= cut.cut_first && i <= cut.cut_last) continue;
     const CutPoint& p = cut.points[i];
-    const double depth = intrusion(part, p, stop);
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    const double depth = intrusion(part, p);
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     if (depth <= allowed) continue;
     return fail({ErrorCode::lead_blocked, "motion/lead", depth, allowed, "mm",
                  "at phi " + brief(p.phi * kDegPerRad) + " deg"});
@@ -214,10 +214,10 @@ Result<void> check_clear(const CutWithLead& cut, const PartBorder& part, double 
 }
 
 Result<CutWithLead> clear_lead(const PartBorder& border, const Track& cut, const Lead& lead,
-                               double eps_tip, const std::stop_token& stop) {
+                               double eps_tip) {
   const auto with = [&](LeadBevel bevel) -> Result<CutWithLead> {
     CutWithLead out = with_lead(cut, lead, border.scrap, bevel);
-    TRY(check_clear(out, border, eps_tip, stop));
+    TRY(check_clear(out, border, eps_tip));
     return out;
   };
   auto out = with(LeadBevel::held);

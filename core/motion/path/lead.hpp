@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/path/border.hpp"
@@ -59,14 +58,13 @@ enum class LeadBevel { held, followed };
 ///
 /// Errors  lead_blocked (with phi), cancelled.
 [[nodiscard]] Result<void> check_clear(const CutWithLead& cut, const PartBorder& part,
-                                       double eps_tip, const std::stop_token& stop);
+                                       double eps_tip);
 
 /// Returns the cut with its leads, clear of the part: with the bevel of the join if that is clear,
 /// else with that of the adjacent cut.
 ///
 /// Errors  lead_blocked (with phi), cancelled.
 [[nodiscard]] Result<CutWithLead> clear_lead(const PartBorder& border, const Track& cut,
-                                             const Lead& lead, double eps_tip,
-                                             const std::stop_token& stop);
+                                             const Lead& lead, double eps_tip);
 
 }  // namespace tubecut::motion

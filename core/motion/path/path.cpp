@@ -140,30 +140,34 @@ struct Resampled {
   double sag_b = 0.0;
 };
 
-void measure_sag(const Program& p, const std::vector<HermiteCurve>& curves,
-                 const std::stop_token& stop, Resampled& out) {
-  for (std::size_t i = 0; i + 1 < p.size() && !stop.stop_requested(); ++i) {
+void measure_sag(const Program& p, const std::vector<HermiteCurve>& curves, Resampled& out) {
+  for (std::size_t i = 0; i + 1 < p.size() && !stopped(); ++i) {
     for (int j = 1; j <= kInner; ++j) {
       const double h = static_cast<double>(j) / (kInner + 1);
-      double tip = 0.0;
+      double tip = 0.0, along = 0.0, chord = 0.0;
       for (std::size_t c = 0; c < curves.size(); ++c) {
-        const double off = p.coordinates[c].weight * curves[c].sag(i, h);
+        const double weight = p.coordinates[c].weight, off = weight * curves[c].sag(i, h);
         if (p.coordinates[c].group == Coordinate::Group::tip) {
+          const double way = weight * (p.x[c][i + 1] - p.x[c][i]);
           tip += off * off;
+          along += off * way;
+          chord += way * way;
         } else {
           out.sag_b = std::max(out.sag_b, std::abs(off) / kBevelWeight);
         }
       }
-      out.sag_tip = std::max(out.sag_tip, std::sqrt(tip));
+      // Along the chord, the curve only runs ahead of it or behind, next to a short piece by much.
+      if (chord > 0.0) tip -= along * along / chord;
+      out.sag_tip = std::max(out.sag_tip, std::sqrt(std::max(0.0, tip)));
     }
   }
 }
 
 void sample(const Program& p, const std::vector<double>& s, const std::vector<HermiteCurve>& curves,
-            std::size_t n, const std::stop_token& stop, Resampled& out) {
+            std::size_t n, Resampled& out) {
   out.x.assign(p.x.size(), std::vector<double>(n + 1));
   std::size_t i = 0;
-  for (std::size_t k = 1; k < n && !stops(stop, k); ++k) {
+  for (std::size_t k = 1; k < n && !stops(k); ++k) {
     const double at = s.back() * static_cast<double>(k) / static_cast<double>(n);
     while (i + 2 < s.size() && s[i + 1] <= at) ++i;
     const double h = std::clamp((at - s[i]) / (s[i + 1] - s[i]), 0.0, 1.0);
@@ -178,8 +182,7 @@ void sample(const Program& p, const std::vector<double>& s, const std::vector<He
 /// Samples the limited Hermite curve through the points about every `d` mm; corners stay.
 ///
 /// Errors  too_many_nodes, cancelled.
-Result<Resampled> resample(const Program& p, double d, double eps_tip, double eps_b,
-                           std::stop_token stop) {
+Result<Resampled> resample(const Program& p, double d, double eps_tip, double eps_b) {
   const std::vector<double> s = p.lengths();
   const double wanted = std::max(4.0, std::ceil(s.back() / d));
   if (!(wanted <= kMostKnots)) {
@@ -192,18 +195,18 @@ Result<Resampled> resample(const Program& p, double d, double eps_tip, double ep
   for (std::size_t c = 0; c < p.x.size(); ++c) {
     const bool tip = p.coordinates[c].group == Coordinate::Group::tip;
     HermiteCurve& curve = curves.emplace_back(p.x[c], lengths);
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     curve.set_tangents(corner);
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     curve.limit(0.5 * (tip ? eps_tip : eps_b * kBevelWeight) / p.coordinates[c].weight);
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
   }
   Resampled out;
   const auto n = static_cast<std::size_t>(wanted);
   out.d = s.back() / static_cast<double>(n);
-  measure_sag(p, curves, stop, out);
-  sample(p, s, curves, n, stop, out);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  measure_sag(p, curves, out);
+  sample(p, s, curves, n, out);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 
@@ -222,10 +225,10 @@ std::vector<double> reflected(const std::vector<double>& x, std::size_t m) {
 
 /// Sums differences to the centre in pairs: the rounding is small and does not depend on the
 /// direction.
-std::vector<double> mean(const std::vector<double>& x, std::size_t m, const std::stop_token& stop) {
+std::vector<double> mean(const std::vector<double>& x, std::size_t m) {
   const std::vector<double> wide = reflected(x, m);
   std::vector<double> out(x.size());
-  for (std::size_t i = 0; i < x.size() && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < x.size() && !stopped(); ++i) {
     double sum = 0.0;
     for (std::size_t j = 1; j <= m; ++j) {
       sum += (wide[i + m + j] - x[i]) + (wide[i + m - j] - x[i]);
@@ -242,14 +245,13 @@ struct Smoothed {
   double deviation = 0.0;                    // mm of generalised length
 };
 
-Smoothed smoothed(const Program& p, const Resampled& r, Group group, std::size_t m,
-                  const std::stop_token& stop) {
+Smoothed smoothed(const Program& p, const Resampled& r, Group group, std::size_t m) {
   Smoothed out;
   std::vector<double> square(r.x.front().size(), 0.0);
   for (std::size_t c = 0; c < r.x.size(); ++c) {
     if (p.coordinates[c].group != group) continue;
-    out.control.push_back(box2(r.x[c], m, stop));
-    for (std::size_t j = 0; j < square.size() && !stops(stop, j); ++j) {
+    out.control.push_back(box2(r.x[c], m));
+    for (std::size_t j = 0; j < square.size() && !stops(j); ++j) {
       const double off = p.coordinates[c].weight * (at_knot(out.control.back(), j) - r.x[c][j]);
       square[j] = group == Group::tip ? square[j] + off * off : std::max(square[j], off * off);
     }
@@ -260,17 +262,16 @@ Smoothed smoothed(const Program& p, const Resampled& r, Group group, std::size_t
 
 /// Finds the widest smoothing that keeps the tolerance. The deviation exceeds it only if it does so
 /// without smoothing.
-Smoothed widest(const Program& p, const Resampled& r, Group group, double most, double tolerance,
-                const std::stop_token& stop) {
+Smoothed widest(const Program& p, const Resampled& r, Group group, double most, double tolerance) {
   auto fits = static_cast<std::size_t>(most / (2.0 * r.d));
-  Smoothed best = smoothed(p, r, group, fits, stop);
+  Smoothed best = smoothed(p, r, group, fits);
   if (best.deviation <= tolerance) return best;
   std::size_t fails = fits;
   fits = 0;
-  best = smoothed(p, r, group, 0, stop);
-  while (best.deviation <= tolerance && fails - fits > 1 && !stop.stop_requested()) {
+  best = smoothed(p, r, group, 0);
+  while (best.deviation <= tolerance && fails - fits > 1 && !stopped()) {
     const std::size_t m = fits + (fails - fits) / 2;
-    Smoothed next = smoothed(p, r, group, m, stop);
+    Smoothed next = smoothed(p, r, group, m);
     if (next.deviation <= tolerance) {
       best = std::move(next);
       fits = m;
@@ -301,14 +302,14 @@ Path assembled(const Program& p, const Resampled& r, Smoothed tip, Smoothed beve
 
 }  // namespace
 
-std::vector<double> box2(const std::vector<double>& x, std::size_t m, const std::stop_token& stop) {
-  std::vector<double> out = mean(mean(x, m, stop), m, stop);
+std::vector<double> box2(const std::vector<double>& x, std::size_t m) {
+  std::vector<double> out = mean(mean(x, m), m);
   out.front() = x.front();
   out.back() = x.back();
   return out;
 }
 
-Result<Path> smooth_path(const Program& p, double eps_tip, Angle eps_b, std::stop_token stop) {
+Result<Path> smooth_path(const Program& p, double eps_tip, Angle eps_b) {
   if (!(eps_tip >= kLeastTip)) {
     return fail({ErrorCode::out_of_range, "motion/eps_tip", eps_tip, kLeastTip, "mm", {}});
   }
@@ -318,11 +319,11 @@ Result<Path> smooth_path(const Program& p, double eps_tip, Angle eps_b, std::sto
   const double bevel = eps_b.rad() * kBevelWeight;
   // Without smoothing a knot is off by at most d / 3, so the halving ends.
   for (double d = kSpacing;; d *= 0.5) {
-    TRY(const auto samples, resample(p, d, eps_tip, eps_b.rad(), stop));
-    Smoothed tip = widest(p, samples, Group::tip, p.widest, eps_tip, stop);
-    Smoothed turn = widest(p, samples, Group::turn, 0.0, eps_tip, stop);
-    Smoothed swing = widest(p, samples, Group::bevel, kWidestBevel, bevel, stop);
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    TRY(const auto samples, resample(p, d, eps_tip, eps_b.rad()));
+    Smoothed tip = widest(p, samples, Group::tip, p.widest, eps_tip);
+    Smoothed turn = widest(p, samples, Group::turn, 0.0, eps_tip);
+    Smoothed swing = widest(p, samples, Group::bevel, kWidestBevel, bevel);
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     if (tip.deviation <= eps_tip && swing.deviation <= bevel) {
       return assembled(p, samples, std::move(tip), std::move(swing), std::move(turn));
     }

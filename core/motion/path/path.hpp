@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/machine/kinematics.hpp"
@@ -57,8 +56,7 @@ class PathCursor {
 /// exactly. If the input is reversed, the result is reversed bit by bit.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 2.4.
-[[nodiscard]] std::vector<double> box2(const std::vector<double>& x, std::size_t m,
-                                       const std::stop_token& stop = {});
+[[nodiscard]] std::vector<double> box2(const std::vector<double>& x, std::size_t m);
 
 /// Computes the path: the limited Hermite curve through the program's points with its corners,
 /// sampled about every 0.1 mm, then smoothed as far as the tolerances (mm, rad) permit.
@@ -66,7 +64,6 @@ class PathCursor {
 /// Errors    out_of_range (tolerances below 1e-3 mm, 0.01 deg), too_many_nodes, cancelled.
 /// Accuracy  knots within eps_tip and eps_b of the unsmoothed path, measured at every knot.
 /// Source    docs/theory/pulse-schedules.md, sections 2.3 to 2.5.
-[[nodiscard]] Result<Path> smooth_path(const Program& program, double eps_tip, Angle eps_b,
-                                       std::stop_token stop);
+[[nodiscard]] Result<Path> smooth_path(const Program& program, double eps_tip, Angle eps_b);
 
 }  // namespace tubecut::motion

@@ -162,7 +162,7 @@ Rate rate_of(const AxisBounds& axis, std::size_t i, double d) {
 
 PathLimits path_limits(const Path& path, const std::vector<AxisFunction>& axes,
                        const std::vector<AxisFunction>& tip, const SpeedAlong& speed,
-                       const Machine& machine, const std::stop_token& stop) {
+                       const Machine& machine) {
   const std::size_t n = path.intervals();
   const auto bent = [](const AxisFunction& f) { return !f.is_linear(); };
   const bool bends = std::ranges::any_of(axes, bent) || std::ranges::any_of(tip, bent);
@@ -182,13 +182,13 @@ PathLimits path_limits(const Path& path, const std::vector<AxisFunction>& axes,
               {{}, {}, {}, axes[a].is_linear()}};
     auto& [first, second, third, linear] = all[a].along;
     for (auto* const values : {&all[a].first, &all[a].second, &all[a].third, &third}) {
-      if (stop.stop_requested()) return out;  // because this touches the memory for the first time
+      if (stopped()) return out;  // because this touches the memory for the first time
       values->resize(n);
     }
     for (auto* const values : {&first, &second}) values->resize(n + 1);
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (stop.stop_requested()) return out;
+    if (stopped()) return out;
     const Jet start = path.jet(i, 0.0, bends), middle = path.jet(i, 0.5 * path.d, bends);
     const Jet end = path.jet(i, path.d, bends);
     for (std::size_t a = 0; a < axes.size(); ++a) {
@@ -215,13 +215,13 @@ PathLimits path_limits(const Path& path, const std::vector<AxisFunction>& axes,
   return out;
 }
 
-Conditions without_jerk(const PathLimits& limits, const std::stop_token& stop) {
+Conditions without_jerk(const PathLimits& limits) {
   const std::size_t n = limits.intervals();
   Conditions out;
   out.caps.assign(n + 1, kNoLimit);
   out.rows.rows.reserve(n * limits.axes.size());  // because growth would move all of them at once
   for (std::size_t i = 0; i < n; ++i) {
-    if (stops(stop, i)) return out;
+    if (stops(i)) return out;
     double fastest = limits.slowness[i] > 0.0 ? 1.0 / limits.slowness[i] : 1e150;
     for (const AxisBounds& axis : limits.axes) {
       if (axis.first[i] > 0.0) fastest = std::min(fastest, axis.v_max / axis.first[i]);
@@ -236,9 +236,9 @@ Conditions without_jerk(const PathLimits& limits, const std::stop_token& stop) {
   return out;
 }
 
-std::vector<double> speed_caps(const PathLimits& limits, const std::stop_token& stop) {
+std::vector<double> speed_caps(const PathLimits& limits) {
   std::vector<double> caps(limits.intervals() + 1, kNoLimit);
-  for (std::size_t i = 0; i < limits.intervals() && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i < limits.intervals() && !stops(i); ++i) {
     const auto cap = [&](const Rate& rate, double v) {
       const auto [start, end] = interval_caps(rate, v);
       caps[i] = std::min(caps[i], start);
@@ -252,10 +252,10 @@ std::vector<double> speed_caps(const PathLimits& limits, const std::stop_token& 
   return caps;
 }
 
-HalfPlanes acceleration_rows(const PathLimits& limits, const std::stop_token& stop) {
+HalfPlanes acceleration_rows(const PathLimits& limits) {
   HalfPlanes out;
   out.rows.reserve(6 * limits.intervals() * limits.axes.size());
-  for (std::size_t i = 0; i < limits.intervals() && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i < limits.intervals() && !stops(i); ++i) {
     for (const AxisBounds& axis : limits.axes) {
       if (axis.first[i] == 0.0 && axis.second[i] == 0.0) continue;
       const double most = axis.along.linear ? axis.a_max : axis.a_max / kSampledMargin;

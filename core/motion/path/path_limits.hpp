@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/machine/kinematics.hpp"
@@ -48,28 +47,26 @@ struct PathLimits {
 /// Source    docs/theory/pulse-schedules.md, sections 5.1 and 5.2.
 [[nodiscard]] PathLimits path_limits(const Path& path, const std::vector<AxisFunction>& axes,
                                      const std::vector<AxisFunction>& tip, const SpeedAlong& speed,
-                                     const Machine& machine, const std::stop_token& stop = {});
+                                     const Machine& machine);
 
 /// Caps at the knots and rows of acceleration, without jerk; zero at both ends.
 struct Conditions {
   std::vector<double> caps = {};
   Rows rows = {};
 };
-[[nodiscard]] Conditions without_jerk(const PathLimits& limits, const std::stop_token& stop = {});
+[[nodiscard]] Conditions without_jerk(const PathLimits& limits);
 
 /// Computes caps of x at the knots from the speeds of axes and tip, on whole intervals; zero at
 /// both ends.
 ///
 /// Accuracy  as `limits`.
-[[nodiscard]] std::vector<double> speed_caps(const PathLimits& limits,
-                                             const std::stop_token& stop = {});
+[[nodiscard]] std::vector<double> speed_caps(const PathLimits& limits);
 
 /// Computes the rows |q' u_ddot + q'' x| <= a_max of every axis on whole intervals, with signs. If
 /// u_ddot is constant, it is a quadratic along the interval, so its three Bezier values bound it.
 ///
 /// Accuracy  exact for axes linear in the coordinates; else with 0.1 % margin.
 /// Source    docs/theory/pulse-schedules.md, section 6.2.
-[[nodiscard]] HalfPlanes acceleration_rows(const PathLimits& limits,
-                                           const std::stop_token& stop = {});
+[[nodiscard]] HalfPlanes acceleration_rows(const PathLimits& limits);
 
 }  // namespace tubecut::motion

@@ -165,8 +165,7 @@ tl::unexpected<Error> too_many_periods(double periods, std::int64_t most) {
                .unit = "periods"});
 }
 
-std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods,
-                           const std::stop_token& stop) {
+std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods) {
   const Clock clock(duration(timing.x, d) + timing.filter);
   const Unfiltered u(timing.x, d, clock);
   const Ticks filter = clock.ticks(timing.filter), total = u.end() + filter;
@@ -176,7 +175,7 @@ std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods,
   places.push_back({0, 0.0});
   const Ticks step = total / periods, over = total % periods;
   Ticks t = 0, rest = 0;  // t + rest / periods is the period's end
-  for (std::int64_t k = 1; k < periods && !stops(stop, static_cast<std::size_t>(k)); ++k) {
+  for (std::int64_t k = 1; k < periods && !stops(static_cast<std::size_t>(k)); ++k) {
     t += step;
     rest += over;
     if (rest >= periods) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <stop_token>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -30,7 +29,6 @@ struct Place {
 ///           distance that the window spans.
 /// Cost      one pass over knots and periods, for any filter.
 /// Source    docs/theory/pulse-schedules.md, section 6.3.
-[[nodiscard]] std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods,
-                                         const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods);
 
 }  // namespace tubecut::motion

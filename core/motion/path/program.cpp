@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/path/lead.hpp"
 #include "core/motion/path/stretch.hpp"
@@ -98,21 +99,20 @@ Program of_way(const CutWithLead& way, const Track& whole, const Motion& motion)
   return out;
 }
 
-Result<Program> of_cut_path(const CutPath& cut_path, const ScheduleSpec& spec,
-                            const std::stop_token& stop) {
+Result<Program> of_cut_path(const CutPath& cut_path, const ScheduleSpec& spec) {
   TRY(auto whole, track(cut_path));
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   if (spec.way) return of_way(*spec.way, whole, spec.motion);
   TRY(const auto cut, stretch(std::move(whole), spec.motion));
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   if (!spec.motion.lead) {
     Program out = over({cut.points, 0, cut.points.size() - 1}, cut, spec.motion);
     out.closed = cut.closed;
     out.turns = cut.turns;
     return out;
   }
-  TRY(const auto border, part_border(cut_path, spec.machine.sigma(), stop));
-  TRY(const auto way, clear_lead(border, cut, *spec.motion.lead, spec.motion.eps_tip, stop));
+  TRY(const auto border, part_border(cut_path, spec.machine.sigma()));
+  TRY(const auto way, clear_lead(border, cut, *spec.motion.lead, spec.motion.eps_tip));
   return over(way, cut, spec.motion);
 }
 
@@ -243,9 +243,9 @@ std::vector<double> Program::lengths() const {
   return s;
 }
 
-Result<Program> program(const ScheduleSpec& spec, const std::stop_token& stop) {
+Result<Program> program(const ScheduleSpec& spec) {
   if (const auto* const cut_path = std::get_if<CutPath>(&spec.cut)) {
-    return of_cut_path(*cut_path, spec, stop);
+    return of_cut_path(*cut_path, spec);
   }
   return of_columns(std::get<AxisColumns>(spec.cut), spec);
 }

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/schedule/spec.hpp"
@@ -50,6 +49,6 @@ struct Program {
 ///         not_closed, out_of_range, unsupported_combination, lead_blocked (a lead or pierce point
 ///         lies in the finished part).
 /// Source  docs/theory/pulse-schedules.md, sections 2.1, 2.2 and 2.6.
-[[nodiscard]] Result<Program> program(const ScheduleSpec& spec, const std::stop_token& stop = {});
+[[nodiscard]] Result<Program> program(const ScheduleSpec& spec);
 
 }  // namespace tubecut::motion

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/stop.hpp"
 #include "core/motion/replay/invariants.hpp"
 #include "core/motion/schedule/schedule.hpp"
 
@@ -22,14 +23,11 @@ struct AxisCounts {
   const Axis& axis;
   std::span<const std::int32_t> counts;
   double period;
-  const std::stop_token& stop;
   double start = 0.0;
   std::int64_t before = 0;  // pulses from the start of the whole to the start of these
 
   /// Returns true if the loop continues with period `k`.
-  [[nodiscard]] bool goes_on(std::ptrdiff_t k) const {
-    return k % kAskEvery != 0 || !stop.stop_requested();
-  }
+  [[nodiscard]] bool goes_on(std::ptrdiff_t k) const { return k % kAskEvery != 0 || !stopped(); }
   [[nodiscard]] double pulses() const { return axis.pulses_per_axis_unit(); }
   /// Returns the count of period `k`, at rest before and after.
   [[nodiscard]] double at(std::ptrdiff_t k) const {
@@ -43,10 +41,9 @@ struct AxisCounts {
   }
 };
 
-AxisCounts counts_of(const Machine& machine, const Counted& counted, std::size_t axis,
-                     const std::stop_token& stop) {
-  return {machine.axes[axis],  counted.counts[axis],       counted.period, stop,
-          counted.start[axis], counted.pulses_before(axis)};
+AxisCounts counts_of(const Machine& machine, const Counted& counted, std::size_t axis) {
+  return {machine.axes[axis], counted.counts[axis], counted.period, counted.start[axis],
+          counted.pulses_before(axis)};
 }
 
 /// I2: checks the sum against the axis values at both ends of the program; for a part of it,
@@ -140,11 +137,10 @@ void add(const Worst& worst, const char* name, std::vector<Check>& out) {
 
 }  // namespace
 
-std::vector<Check> rate_invariants(const Machine& machine, const Counted& counted, bool jerk,
-                                   const std::stop_token& stop) {
+std::vector<Check> rate_invariants(const Machine& machine, const Counted& counted, bool jerk) {
   Worst overflow, speed, acceleration, third, travel, reversal;
-  for (std::size_t i = 0; i < counted.counts.size() && !stop.stop_requested(); ++i) {
-    const AxisCounts a = counts_of(machine, counted, i, stop);
+  for (std::size_t i = 0; i < counted.counts.size() && !stopped(); ++i) {
+    const AxisCounts a = counts_of(machine, counted, i);
     check_rates(a, overflow, speed, acceleration);
     if (jerk) check_jerk(a, third);
     check_travel(a, travel);
@@ -160,13 +156,12 @@ std::vector<Check> rate_invariants(const Machine& machine, const Counted& counte
   return out;
 }
 
-std::vector<Check> place_invariants(const PreparedCut& job, const Counted& counted,
-                                    const std::stop_token& stop) {
+std::vector<Check> place_invariants(const PreparedCut& job, const Counted& counted) {
   Worst sum, closed, begin;
   const bool stretch = !counted.before.empty();
-  for (std::size_t i = 0; i < counted.counts.size() && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < counted.counts.size() && !stopped(); ++i) {
     const AxisFunction& f = job.course.axes[i];
-    const AxisCounts a = counts_of(job.course.machine, counted, i, stop);
+    const AxisCounts a = counts_of(job.course.machine, counted, i);
     check_sum(job, a, f, stretch, sum);
     if (job.program.closed) check_closure(job, a, f, closed);
     check_start(job, a, f, stretch, begin);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/motion/path/lead.hpp"
 #include "core/motion/path/upright.hpp"
 #include "core/motion/schedule/schedule.hpp"
@@ -46,11 +47,10 @@ double largest_bevel(const Program& program) {
 class Examination {
  public:
   Examination(const ScheduleSpec& spec, const PreparedCut& job, const Counted& counted,
-              bool with_lead, const std::stop_token& stop)
+              bool with_lead)
       : spec_(spec),
         job_(job),
         counted_(counted),
-        stop_(stop),
         torch_(spec),
         largest_b_(largest_bevel(job.program)),
         quantum_(torch_.quantum(largest_b_)) {
@@ -58,7 +58,7 @@ class Examination {
     if (with_lead && spec.motion.lead) {
       const auto* const cut_path = std::get_if<CutPath>(&spec.cut);
       if (cut_path != nullptr && cut_path->closed) {
-        if (auto border = part_border(*cut_path, spec.machine.sigma(), stop))
+        if (auto border = part_border(*cut_path, spec.machine.sigma()))
           border_ = *std::move(border);
       }
     }
@@ -68,9 +68,9 @@ class Examination {
     std::vector<bool> part;
     for (std::size_t c = 0; c < job_.program.x.size(); ++c) part.push_back(takes_part(c));
     const double look = kLook + 2.0 * allow_.tip + 2.0 * fastest() * counted_.period;
-    Follower follower(job_.program, part, look, stop_);
+    Follower follower(job_.program, part, look);
     AxisValues values(counted_, job_.course.machine);
-    for (std::size_t k = 0; k <= counted_.periods && !stop_.stop_requested(); ++k) {
+    for (std::size_t k = 0; k <= counted_.periods && !stopped(); ++k) {
       if (k > 0) values.step(k - 1);
       see(values.now(), follower, k);
     }
@@ -228,7 +228,7 @@ class Examination {
     CutPoint point{x[0], x[1], x[2], false, 0.0};
     if (const auto& section = border_->cut.section)
       point.phi = girth_at(*section, {x[3], x[4]}) / border_->cut.radius;
-    lead_.see(intrusion(*border_, point, stop_),
+    lead_.see(intrusion(*border_, point),
               lead_touch(*border_, spec_.motion.eps_tip) + allow_.tip + allow_.thickness);
   }
 
@@ -253,7 +253,6 @@ class Examination {
   const ScheduleSpec& spec_;
   const PreparedCut& job_;
   const Counted& counted_;
-  const std::stop_token& stop_;
   Reconstruction torch_;
   double largest_b_;
   Coordinates quantum_;
@@ -287,9 +286,9 @@ void Worst::see(double value, double limit) {
 }
 
 Followed path_invariants(const ScheduleSpec& spec, const PreparedCut& job, const Counted& counted,
-                         bool with_lead, const std::stop_token& stop) {
+                         bool with_lead) {
   if (!any_tip_known(job, Reconstruction(spec))) return {};
-  return Examination(spec, job, counted, with_lead, stop).run();
+  return Examination(spec, job, counted, with_lead).run();
 }
 
 }  // namespace tubecut::motion

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,11 +29,10 @@ class Worst {
 ///
 /// Source  docs/theory/pulse-schedules.md, section 9.
 [[nodiscard]] std::vector<Check> rate_invariants(const Machine& machine, const Counted& counted,
-                                                 bool jerk, const std::stop_token& stop);
+                                                 bool jerk);
 
 /// Checks I2, I3 and I16: sums, closure, the start.
-[[nodiscard]] std::vector<Check> place_invariants(const PreparedCut& job, const Counted& counted,
-                                                  const std::stop_token& stop);
+[[nodiscard]] std::vector<Check> place_invariants(const PreparedCut& job, const Counted& counted);
 
 struct Followed {
   std::vector<Check> checks = {};
@@ -45,7 +43,6 @@ struct Followed {
 ///
 /// Source  docs/theory/pulse-schedules.md, section 9.
 [[nodiscard]] Followed path_invariants(const ScheduleSpec& spec, const PreparedCut& job,
-                                       const Counted& counted, bool with_lead,
-                                       const std::stop_token& stop);
+                                       const Counted& counted, bool with_lead);
 
 }  // namespace tubecut::motion

@@ -251,15 +251,14 @@ double Reconstruction::standoff_quantum() const {
   return half_pulse(roles_.height) + fine + pivot_ * half_pulse(roles_.b) * kRadPerDeg;
 }
 
-Follower::Follower(const Program& program, const std::vector<bool>& part, double window,
-                   const std::stop_token& stop)
+Follower::Follower(const Program& program, const std::vector<bool>& part, double window)
     : program_(program), missed_(program.size(), 1e300), window_(window) {
   for (std::size_t c = 0; c < program.coordinates.size(); ++c) {
     if (part[c]) tip_coordinates_.push_back(c);
   }
   points_.reserve(program.size());
   at_.reserve(program.size());
-  for (std::size_t i = 0; i < program.size() && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i < program.size() && !stops(i); ++i) {
     Coordinates x{};
     for (std::size_t c = 0; c < program.x.size(); ++c) x[c] = program.x[c][i];
     points_.push_back(tip_of(x));

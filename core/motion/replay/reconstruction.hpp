@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -100,8 +99,7 @@ class Follower {
  public:
   /// `part`: coordinates that take part. `window`: mm of tip path searched on both sides. If
   /// cancelled, it is empty.
-  Follower(const Program& program, const std::vector<bool>& part, double window,
-           const std::stop_token& stop);
+  Follower(const Program& program, const std::vector<bool>& part, double window);
 
   struct Found {
     double distance = 0.0;  // mm

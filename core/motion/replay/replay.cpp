@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/path/course.hpp"
 #include "core/motion/replay/invariants.hpp"
@@ -15,13 +16,13 @@ namespace {
 constexpr double kMostCount = 2147483647.0;
 constexpr std::size_t kCheckEvery = 1024;  // numbers
 
-Received integers(const std::vector<std::vector<double>>& counts, const std::stop_token& stop) {
+Received integers(const std::vector<std::vector<double>>& counts) {
   Received out;
   for (const auto& column : counts) {
     std::vector<std::int32_t> whole;
     whole.reserve(column.size());
     for (const double n : column) {
-      if (whole.size() % kCheckEvery == 0 && stop.stop_requested()) return out;
+      if (whole.size() % kCheckEvery == 0 && stopped()) return out;
       const double nearest = std::floor(n + 0.5);
       worsen(out.worst, std::abs(n - nearest));
       whole.push_back(static_cast<std::int32_t>(nearest));
@@ -67,19 +68,18 @@ Result<std::size_t> periods_of(const Machine& machine, double period,
 }
 
 std::vector<Check> examine(const ScheduleSpec& spec, const PreparedCut& job, const Counted& counted,
-                           double fraction, bool own, double* deviation,
-                           const std::stop_token& stop) {
+                           double fraction, bool own, double* deviation) {
   std::vector<Check> out{{"I1", fraction, 0.0, "pulses"}};
   // In the order of their numbers except the start, which comes after the rates.
-  std::vector<Check> places = place_invariants(job, counted, stop);
+  std::vector<Check> places = place_invariants(job, counted);
   if (places.empty()) return out;  // cancelled
   const Check begin = places.back();
   places.pop_back();
-  const std::vector<Check> rates = rate_invariants(spec.machine, counted, spec.motion.jerk, stop);
+  const std::vector<Check> rates = rate_invariants(spec.machine, counted, spec.motion.jerk);
   out.insert(out.end(), places.begin(), places.end());
   out.insert(out.end(), rates.begin(), rates.end());
   out.push_back(begin);
-  const Followed followed = path_invariants(spec, job, counted, own, stop);
+  const Followed followed = path_invariants(spec, job, counted, own);
   out.insert(out.end(), followed.checks.begin(), followed.checks.end());
   if (deviation != nullptr) *deviation = followed.deviation;
   return out;
@@ -87,15 +87,14 @@ std::vector<Check> examine(const ScheduleSpec& spec, const PreparedCut& job, con
 
 }  // namespace
 
-void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
-             const std::stop_token& stop) {
+void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out) {
   if (!std::holds_alternative<CutPath>(spec.cut)) return;
   const Reconstruction torch(spec);
   AxisValues values(counted, spec.machine);
   for (auto* column : {&out.phi, &out.z, &out.b})
     column->reserve(counted.periods + 1);  // because growth of a million would move at once
   for (std::size_t k = 0; k <= counted.periods; ++k) {
-    if (k % kCheckEvery == 0 && stop.stop_requested()) return;
+    if (k % kCheckEvery == 0 && stopped()) return;
     if (k > 0) values.step(k - 1);
     const Coordinates x = torch.at(values.now());
     out.phi.push_back(x[0]);
@@ -114,32 +113,31 @@ Counted Received::counted() const {
 }
 
 Result<Received> received(const Machine& machine, double period,
-                          const std::vector<std::vector<double>>& counts, std::vector<double> start,
-                          const std::stop_token& stop) {
+                          const std::vector<std::vector<double>>& counts,
+                          std::vector<double> start) {
   TRY(const auto periods, periods_of(machine, period, counts, start));
-  Received out = integers(counts, stop);
+  Received out = integers(counts);
   out.period = period;
   out.periods = periods;
   out.start = std::move(start);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 
-Result<Replay> replay(const ReplaySpec& spec, const std::stop_token& stop) {
-  TRY(const auto job, prepare_cut(spec.job, stop));
-  TRY(const auto whole, received(spec.job.machine, spec.period, spec.counts, spec.start, stop));
+Result<Replay> replay(const ReplaySpec& spec) {
+  TRY(const auto job, prepare_cut(spec.job));
+  TRY(const auto whole, received(spec.job.machine, spec.period, spec.counts, spec.start));
   const Counted counted = whole.counted();
   Replay out;
-  rebuild(spec.job, counted, out, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  out.invariants = examine(spec.job, job, counted, whole.worst, false, &out.deviation, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  rebuild(spec.job, counted, out);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
+  out.invariants = examine(spec.job, job, counted, whole.worst, false, &out.deviation);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 
-std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule,
-                          const std::stop_token& stop) {
-  const auto job = prepare_cut(spec, stop);
+std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule) {
+  const auto job = prepare_cut(spec);
   const bool fits = job && schedule.axes.size() == spec.machine.axes.size() &&
                     schedule.period == spec.machine.period && schedule.periods > 0;
   Counted counted{schedule.period, static_cast<std::size_t>(schedule.periods), {}, {}};
@@ -150,7 +148,7 @@ std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule,
     counted.start.push_back(axis.start);
   }
   if (!fits || !sized) return {{"replayable", 1.0, 0.0, ""}};
-  return examine(spec, *job, counted, 0.0, true, nullptr, stop);
+  return examine(spec, *job, counted, 0.0, true, nullptr);
 }
 
 }  // namespace tubecut::motion

@@ -18,7 +18,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/replay/reconstruction.hpp"
@@ -49,7 +48,7 @@ struct Received {
 /// Errors  wrong_count, bad_number, cancelled.
 [[nodiscard]] Result<Received> received(const Machine& machine, double period,
                                         const std::vector<std::vector<double>>& counts,
-                                        std::vector<double> start, const std::stop_token& stop);
+                                        std::vector<double> start);
 
 /// The tool path of the counts, one more point than periods, and every invariant.
 struct Replay {
@@ -62,8 +61,7 @@ struct Replay {
 };
 
 /// Rebuilds the path of a contour's counts; empty for axis columns.
-void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
-             const std::stop_token& stop);
+void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out);
 
 /// Rebuilds the torch from integer counts and compares it with the contour: invariants I1 to I16,
 /// each with its worst value, the limit there and the unit. Invariants that do not apply (no
@@ -72,11 +70,10 @@ void rebuild(const ScheduleSpec& spec, const Counted& counted, Replay& out,
 /// Errors  wrong_count, bad_number, and those of the job itself.
 /// Cost    one pass over the periods; per period the contour points within about a millimetre.
 /// Source  docs/theory/pulse-schedules.md, section 9.
-[[nodiscard]] Result<Replay> replay(const ReplaySpec& spec, const std::stop_token& stop = {});
+[[nodiscard]] Result<Replay> replay(const ReplaySpec& spec);
 
 /// Checks the same invariants on our own answer, and `lead_clears_part`. If an answer does not fit
 /// its request, it fails the check `replayable`.
-[[nodiscard]] std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Check> verify(const ScheduleSpec& spec, const Schedule& schedule);
 
 }  // namespace tubecut::motion

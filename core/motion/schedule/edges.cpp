@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/motion/path/chords.hpp"
 #include "core/motion/path/course.hpp"
 #include "core/motion/path/upright.hpp"
@@ -67,8 +68,8 @@ class SectionWalls {
 };
 
 template <class Traces>
-std::optional<EdgeDeviation> farthest(const Traces& walls, const Program& program, const Path& path,
-                                      const std::stop_token& stop) {
+std::optional<EdgeDeviation> farthest(const Traces& walls, const Program& program,
+                                      const Path& path) {
   using Point = typename Traces::Point;
   std::vector<std::array<Point, 2>> points;
   for (std::size_t i = 0; i < program.size(); ++i)
@@ -92,7 +93,7 @@ std::optional<EdgeDeviation> farthest(const Traces& walls, const Program& progra
   std::size_t own = program.cut_first;
   PathCursor cursor(path, false);
   for (std::size_t k = 0; k < kPerKnot * path.intervals(); ++k) {
-    if (k % 4096 == 0 && stop.stop_requested()) return std::nullopt;
+    if (k % 4096 == 0 && stopped()) return std::nullopt;
     const double offset = path.d * static_cast<double>(k % kPerKnot) / kPerKnot;
     const double u = path.d * static_cast<double>(k / kPerKnot) + offset;
     if (u < from || u > to) continue;
@@ -106,21 +107,20 @@ std::optional<EdgeDeviation> farthest(const Traces& walls, const Program& progra
 }  // namespace
 
 std::optional<EdgeDeviation> edge_deviation(const ScheduleSpec& spec, const Program& program,
-                                            const Path& path, const std::stop_token& stop) {
+                                            const Path& path) {
   const auto* const cut_path = std::get_if<CutPath>(&spec.cut);
   if (cut_path == nullptr) return std::nullopt;
   const double sigma = spec.machine.sigma();
-  if (cut_path->section) return farthest(SectionWalls(*cut_path, sigma), program, path, stop);
-  return farthest(Walls(*cut_path, sigma), program, path, stop);
+  if (cut_path->section) return farthest(SectionWalls(*cut_path, sigma), program, path);
+  return farthest(Walls(*cut_path, sigma), program, path);
 }
 
-std::optional<double> largest_lean(const ScheduleSpec& spec, const Path& path,
-                                   const std::stop_token& stop) {
+std::optional<double> largest_lean(const ScheduleSpec& spec, const Path& path) {
   const auto* const cut_path = std::get_if<CutPath>(&spec.cut);
   if (cut_path == nullptr || !cut_path->section) return std::nullopt;
   double most = 0.0;
   PathCursor cursor(path, false);
-  for (std::size_t i = 0; i < path.intervals() && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < path.intervals() && !stopped(); ++i) {
     const Coordinates x = cursor.at(i, 0.0).x;
     const double normal = normal_towards(*cut_path->section, {x[3], x[4]});
     most = std::max(most, std::abs(std::remainder(x[0] - normal, kTwoPi)));

@@ -39,19 +39,18 @@ void PulseCounter::rest(std::int64_t periods) {
   periods_ += periods;
 }
 
-void PulseCounter::follow(const PlannedCut& cut, const std::stop_token& stop) {
+void PulseCounter::follow(const PlannedCut& cut) {
   ValueCursor cursor(cut.job.course.path, cut.job.course.axes);
   const auto& places = cut.plan.places;
   expect(static_cast<std::int64_t>(places.size()) - 1);
-  for (std::size_t k = 1; k < places.size() && !stops(stop, k); ++k) step(cursor.at(places[k]));
+  for (std::size_t k = 1; k < places.size() && !stops(k); ++k) step(cursor.at(places[k]));
 }
 
-AxisSums PulseCounter::sums_from(std::int64_t period, const std::stop_token& stop) const {
+AxisSums PulseCounter::sums_from(std::int64_t period) const {
   AxisSums out;
   for (const AxisPulses& axis : axes_) {
     std::int64_t peak = 0, sum = 0;
-    for (auto k = static_cast<std::size_t>(period); k < axis.counts.size() && !stops(stop, k);
-         ++k) {
+    for (auto k = static_cast<std::size_t>(period); k < axis.counts.size() && !stops(k); ++k) {
       const std::int64_t n = axis.counts[k];
       peak = std::max(peak, std::abs(n));
       sum += n;

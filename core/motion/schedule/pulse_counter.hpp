@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/schedule/schedule.hpp"
@@ -27,10 +26,10 @@ class PulseCounter {
   /// Adds periods at rest.
   void rest(std::int64_t periods);
   /// Adds the counts along a planned cut, from its start.
-  void follow(const PlannedCut& cut, const std::stop_token& stop);
+  void follow(const PlannedCut& cut);
 
   /// Returns the sums from this period on.
-  [[nodiscard]] AxisSums sums_from(std::int64_t period, const std::stop_token& stop) const;
+  [[nodiscard]] AxisSums sums_from(std::int64_t period) const;
   [[nodiscard]] std::int64_t periods() const { return periods_; }
   [[nodiscard]] const std::vector<double>& at() const { return at_; }
   /// Ends the counting and returns the pulses.

@@ -20,7 +20,7 @@ constexpr double kSlow = 0.5;  // of the requested speed
 /// Returns the largest fraction of its limits that an axis uses over samples `from`..`to`; roots
 /// make the three kinds comparable as speeds.
 double share(const Course& course, const std::vector<Place>& places, std::size_t axis,
-             std::size_t from, std::size_t to, const std::stop_token& stop) {
+             std::size_t from, std::size_t to) {
   const Axis& record = course.machine.axes[axis];
   const double t = course.machine.period;
   ValueCursor cursor(course.path, {&course.axes[axis], 1});
@@ -29,7 +29,7 @@ double share(const Course& course, const std::vector<Place>& places, std::size_t
   };
   double speed = 0.0, acceleration = 0.0, jerk = 0.0;
   double a = at(from), b = at(from + 1), c = at(from + 2);
-  for (std::size_t k = from + 3; k <= to + 3 && !stops(stop, k); ++k) {
+  for (std::size_t k = from + 3; k <= to + 3 && !stops(k); ++k) {
     const double d = at(k);
     speed = std::max(speed, std::abs(d - c));
     acceleration = std::max(acceleration, std::abs(d - 2.0 * c + b));
@@ -45,11 +45,11 @@ double share(const Course& course, const std::vector<Place>& places, std::size_t
 }
 
 std::string limiting_axis(const Course& course, const std::vector<Place>& places, std::size_t from,
-                          std::size_t to, const std::stop_token& stop) {
+                          std::size_t to) {
   std::string name;
   double most = -1.0;
   for (const AxisBounds& bounds : course.limits.axes) {
-    const double used = share(course, places, bounds.axis, from, to, stop);
+    const double used = share(course, places, bounds.axis, from, to);
     if (used > most) name = course.machine.axes[bounds.axis].name;
     most = std::max(most, used);
   }
@@ -130,8 +130,7 @@ double closing_residual(const ScheduleSpec& spec) {
 
 }  // namespace
 
-std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place>& places,
-                                 const std::stop_token& stop) {
+std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place>& places) {
   const Course& course = job.course;
   const double d = course.path.d, end = course.path.length() - kReportMargin;
   // If a lead meets the cut at a corner, the cut is just starting: a tab is broken off there.
@@ -142,7 +141,7 @@ std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place
   bool inside = false;
   TipCursor tip(course);
   tip.step_to(places[0]);
-  for (std::size_t k = 0; k + 1 < places.size() && !stops(stop, k); ++k) {
+  for (std::size_t k = 0; k + 1 < places.size() && !stops(k); ++k) {
     const double from = places[k].u(d), to = places[k + 1].u(d);
     const double speed = tip.step_to(places[k + 1]) / course.machine.period;
     const bool slow = from >= begin && to <= end && speed < kSlow * course.speed.least(from, to);
@@ -156,11 +155,11 @@ std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place
     inside = slow;
   }
   for (SlowZone& zone : out) {
-    if (stop.stop_requested()) break;
+    if (stopped()) break;
     const auto from = static_cast<std::size_t>(zone.from), to = static_cast<std::size_t>(zone.to);
     zone.phi_from = course.path.at(places[from].interval, places[from].offset)[0];
     zone.phi_to = course.path.at(places[to + 1].interval, places[to + 1].offset)[0];
-    zone.axis = limiting_axis(course, places, from, to, stop);
+    zone.axis = limiting_axis(course, places, from, to);
   }
   return out;
 }
@@ -169,7 +168,7 @@ std::int16_t NaiveAxis::step_in_16_bits() const {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(largest_step & 0xffff));
 }
 
-Comparison comparison(const PreparedCut& job, const std::stop_token& stop) {
+Comparison comparison(const PreparedCut& job) {
   const std::vector<double> s = job.program.lengths();
   Comparison out;
   out.naive.time.push_back(0.0);
@@ -178,7 +177,7 @@ Comparison comparison(const PreparedCut& job, const std::stop_token& stop) {
     if (axis.n_max) out.naive.axes.back().periods_over = 0;
   }
   double share = 1.0;  // of the requested speed that the whole cut can keep
-  for (std::size_t i = 0; i + 1 < job.program.size() && !stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i + 1 < job.program.size() && !stopped(); ++i) {
     const Segment seg = segment(job, s, i);
     const double asked = seg.length / seg.speed;
     add_segment(job, i, seg.length, seg.speed, out.naive);
@@ -195,8 +194,7 @@ Comparison comparison(const PreparedCut& job, const std::stop_token& stop) {
   return out;
 }
 
-Report report(const ScheduleSpec& spec, const PreparedCut& job, const Plan& plan,
-              const std::stop_token& stop) {
+Report report(const ScheduleSpec& spec, const PreparedCut& job, const Plan& plan) {
   const Path& path = job.course.path;
   Report out;
   out.time = static_cast<double>(plan.places.size() - 1) * spec.machine.period;
@@ -216,7 +214,7 @@ Report report(const ScheduleSpec& spec, const PreparedCut& job, const Plan& plan
   out.closing_residual = closing_residual(spec);
   out.max_use = largest_uses(job.course, plan, spec.motion.jerk);
   const double fastest = job.course.speed.greatest(0.0, path.length());
-  if (plan.uses.least_tip < kSlow * fastest) out.slow = slow_zones(job, plan.places, stop);
+  if (plan.uses.least_tip < kSlow * fastest) out.slow = slow_zones(job, plan.places);
   out.slow_time = 0.0;
   for (const SlowZone& zone : out.slow) {
     out.slow_time += static_cast<double>(zone.to - zone.from + 1) * spec.machine.period;

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -100,8 +99,7 @@ struct Report {
 };
 
 /// Returns the figures of a plan, except its edges and comparison.
-[[nodiscard]] Report report(const ScheduleSpec& spec, const PreparedCut& job, const Plan& plan,
-                            const std::stop_token& stop);
+[[nodiscard]] Report report(const ScheduleSpec& spec, const PreparedCut& job, const Plan& plan);
 
 /// Finds the runs of periods in which the tip is slower than half of the requested speed, more than
 /// 2 mm from both ends, each with the axis that uses most of one of its limits there. They are
@@ -109,8 +107,7 @@ struct Report {
 ///
 /// Source  docs/theory/pulse-schedules.md, section 4.3.
 [[nodiscard]] std::vector<SlowZone> slow_zones(const PreparedCut& job,
-                                               const std::vector<Place>& places,
-                                               const std::stop_token& stop = {});
+                                               const std::vector<Place>& places);
 
 /// Computes it for the cut between lead-in and lead-out. Empty for axis columns, because they have
 /// no wall, and when cancelled.
@@ -119,21 +116,19 @@ struct Report {
 ///           from each other.
 /// Cost      linear in the knots.
 [[nodiscard]] std::optional<EdgeDeviation> edge_deviation(const ScheduleSpec& spec,
-                                                          const Program& program, const Path& path,
-                                                          const std::stop_token& stop);
+                                                          const Program& program, const Path& path);
 
 /// Returns the largest angle between the torch's plane and the normal of the outside at the tip,
 /// rad: that of the blend, and what smoothing the tip adds. Empty unless the cut is of a section.
 ///
 /// Accuracy  taken at the path's knots.
-[[nodiscard]] std::optional<double> largest_lean(const ScheduleSpec& spec, const Path& path,
-                                                 const std::stop_token& stop);
+[[nodiscard]] std::optional<double> largest_lean(const ScheduleSpec& spec, const Path& path);
 
 /// Computes the times if the whole cut is slowed, if only its segments are slowed, and if neither
 /// is.
 ///
 /// Cost    linear in the points of the contour.
 /// Source  docs/theory/pulse-schedules.md, sections 10.1 and 10.2.
-[[nodiscard]] Comparison comparison(const PreparedCut& job, const std::stop_token& stop = {});
+[[nodiscard]] Comparison comparison(const PreparedCut& job);
 
 }  // namespace tubecut::motion

@@ -25,8 +25,7 @@ std::int64_t closure(const Axis& axis, const AxisFunction& f, const Course& cour
 }
 
 /// Computes the counts of the moving axes in one walk over the places.
-void count(const Course& course, const std::vector<Place>& places, const std::stop_token& stop,
-           std::vector<AxisPulses>& out) {
+void count(const Course& course, const std::vector<Place>& places, std::vector<AxisPulses>& out) {
   std::vector<AxisFunction> functions;
   std::vector<std::size_t> moving;
   for (const AxisBounds& bounds : course.limits.axes) {
@@ -36,7 +35,7 @@ void count(const Course& course, const std::vector<Place>& places, const std::st
   }
   ValueCursor cursor(course.path, functions);
   std::vector<std::int64_t> before(moving.size(), 0);
-  for (std::size_t k = 0; k < places.size() && !stops(stop, k); ++k) {
+  for (std::size_t k = 0; k < places.size() && !stops(k); ++k) {
     const auto& values = cursor.at(places[k]);
     for (std::size_t i = 0; i < moving.size(); ++i) {
       AxisPulses& axis = out[moving[i]];
@@ -113,8 +112,7 @@ std::vector<Warning> warnings(const ScheduleSpec& spec, const Report& report) {
   return out;
 }
 
-std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan,
-                               const std::stop_token& stop) {
+std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan) {
   const Course& course = job.course;
   std::vector<AxisPulses> out;
   for (std::size_t a = 0; a < course.axes.size(); ++a) {
@@ -122,36 +120,36 @@ std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan,
     out.push_back(
         {.name = axis.name, .unit = axis.unit, .start = course.axes[a].at(course.path.at(0, 0.0))});
   }
-  count(course, plan.places, stop, out);
-  for (std::size_t a = 0; a < out.size() && !stop.stop_requested(); ++a) sum_up(job, a, out[a]);
+  count(course, plan.places, out);
+  for (std::size_t a = 0; a < out.size() && !stopped(); ++a) sum_up(job, a, out[a]);
   return out;
 }
 
-Result<PlannedCut> plan_cut(const ScheduleSpec& spec, const std::stop_token& stop) {
-  TRY(auto job, prepare_cut(spec, stop));
+Result<PlannedCut> plan_cut(const ScheduleSpec& spec) {
+  TRY(auto job, prepare_cut(spec));
   const PlanOptions options{spec.motion.jerk, spec.motion.expert.optimism,
                             spec.motion.expert.filter, spec.max_periods};
-  TRY(auto timed, plan(job.course, options, stop));
+  TRY(auto timed, plan(job.course, options));
   PlannedCut out{.job = std::move(job), .plan = std::move(timed)};
   out.events = events(out.job, out.plan);
-  out.report = report(spec, out.job, out.plan, stop);
-  out.report.lean = largest_lean(spec, out.job.course.path, stop);
-  out.report.edges = edge_deviation(spec, out.job.program, out.job.course.path, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  out.report = report(spec, out.job, out.plan);
+  out.report.lean = largest_lean(spec, out.job.course.path);
+  out.report.edges = edge_deviation(spec, out.job.program, out.job.course.path);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 
-Result<Schedule> schedule(const ScheduleSpec& spec, std::stop_token stop) {
-  TRY(auto cut, plan_cut(spec, stop));
+Result<Schedule> schedule(const ScheduleSpec& spec) {
+  TRY(auto cut, plan_cut(spec));
   Schedule out;
   out.period = spec.machine.period;
   out.periods = static_cast<std::int64_t>(cut.plan.places.size()) - 1;
-  out.axes = pulses(cut.job, cut.plan, stop);
+  out.axes = pulses(cut.job, cut.plan);
   out.events = std::move(cut.events);
   out.report = std::move(cut.report);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  if (spec.motion.compare) out.comparison = comparison(cut.job, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
+  if (spec.motion.compare) out.comparison = comparison(cut.job);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   out.warnings = warnings(spec, out.report);
   return out;
 }

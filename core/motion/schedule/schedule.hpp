@@ -22,7 +22,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -94,14 +93,13 @@ struct PlannedCut {
 };
 
 /// Errors  as `schedule`.
-[[nodiscard]] Result<PlannedCut> plan_cut(const ScheduleSpec& spec, const std::stop_token& stop);
+[[nodiscard]] Result<PlannedCut> plan_cut(const ScheduleSpec& spec);
 
 /// Returns the warnings for a report.
 [[nodiscard]] std::vector<Warning> warnings(const ScheduleSpec& spec, const Report& report);
 
 /// Computes the pulses of every axis of the machine.
-[[nodiscard]] std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan,
-                                             const std::stop_token& stop = {});
+[[nodiscard]] std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan);
 
 /// Computes integer pulses per axis and period for a cut on a machine: time-optimal without jerk
 /// limits, jerk-limited, no pulse lost.
@@ -116,6 +114,6 @@ struct PlannedCut {
 /// Cost      about 40 sweeps over the knots (one every 0.1 mm) and 10 passes over the periods, of
 ///           some 20 ns each.
 /// Source    docs/theory/pulse-schedules.md.
-[[nodiscard]] Result<Schedule> schedule(const ScheduleSpec& spec, std::stop_token stop = {});
+[[nodiscard]] Result<Schedule> schedule(const ScheduleSpec& spec);
 
 }  // namespace tubecut::motion

@@ -5,9 +5,9 @@
 namespace tubecut::motion {
 namespace {
 
-constexpr std::size_t kBevel = 2;               // index of the coordinate B
-constexpr std::size_t kUp = 0, kX = 3, kY = 4;  // of the normal's angle and of the tip across
-constexpr double kNearValue = 1.0 / 16.0;       // rad; beyond it the series would leave 1e-18
+constexpr std::size_t kBevel = 2;                     // index of the coordinate B
+constexpr std::size_t kUp = 0, kTipX = 3, kTipY = 4;  // of the normal's angle and of the tip across
+constexpr double kNearValue = 1.0 / 16.0;             // rad; beyond it the series would leave 1e-18
 
 /// Rotates sine and cosine of an angle by at most `kNearValue`: Taylor's series of the rotation,
 /// truncated below 3e-19, and the sum of the two angles.
@@ -61,8 +61,8 @@ void ValueCursor::enter(std::size_t interval) {
   }
   if (!turns_.empty()) {
     up_ = x[kUp];
-    x_ = x[kX];
-    y_ = x[kY];
+    x_ = x[kTipX];
+    y_ = x[kTipY];
     up_at_start_ = elementary::sincos(up_[0]);
   }
   if (bends_.empty()) return;

@@ -35,8 +35,7 @@ constexpr double kLastCheck = 1.0 + 1e-8;
 /// Returns the length in periods of the filter with the smallest `time_of`: octave by octave from
 /// the longest that any axis can use down to one period, until two in sequence are slower than the
 /// best.
-double best_octave(const Course& course, const std::function<double(double)>& time_of,
-                   const std::stop_token& stop) {
+double best_octave(const Course& course, const std::function<double(double)>& time_of) {
   const double period = course.machine.period;
   double longest = 0.0;
   for (const AxisBounds& axis : course.limits.axes) {
@@ -52,7 +51,7 @@ double best_octave(const Course& course, const std::function<double(double)>& ti
       best_time = time;
       best_count = count;
     }
-    if (slower == 2 || count <= 1.0 || stop.stop_requested()) return best_count;
+    if (slower == 2 || count <= 1.0 || stopped()) return best_count;
   }
 }
 
@@ -70,19 +69,18 @@ void for_reach_of(const std::vector<Place>& places, std::size_t k, std::size_t r
 class LadderSearch {
  public:
   LadderSearch(const Course& course, const PlanOptions& options, FilteredProfiles& profiles,
-               const std::vector<double>& without_jerk, std::stop_token stop)
+               const std::vector<double>& without_jerk)
       : course_(course),
         options_(options),
         profiles_(profiles),
         without_jerk_(without_jerk),
-        least_(duration(without_jerk, course.limits.d)),
-        stop_(std::move(stop)) {}
+        least_(duration(without_jerk, course.limits.d)) {}
 
   /// Returns the fastest timing that is faster than `bound` seconds; x is empty if there is none.
   Timing best(double optimism, double bound) {
     Timing found{{}, 0.0, bound};
     for (const double filter : filters(optimism)) {
-      if (stop_.stop_requested()) break;
+      if (stopped()) break;
       Timing next = repaired(filter, optimism, found.time);
       if (next.time < found.time) found = std::move(next);
       if (good_enough(found)) break;
@@ -99,15 +97,15 @@ class LadderSearch {
   [[nodiscard]] double period() const { return course_.machine.period; }
 
   [[nodiscard]] Timing profile(double filter, const Optimism& optimism, int rounds) const {
-    return profiles_.by_magnitudes(without_jerk_, filter, optimism, rounds, stop_);
+    return profiles_.by_magnitudes(without_jerk_, filter, optimism, rounds);
   }
 
   /// Tries every octave with one round, then returns the best and its neighbours.
   std::vector<double> filters(double optimism) const {
     if (options_.filter) return {*options_.filter};
     const Optimism level(course_.limits.intervals(), optimism);
-    return neighbours(best_octave(
-        course_, [&](double filter) { return profile(filter, level, 1).time; }, stop_));
+    return neighbours(
+        best_octave(course_, [&](double filter) { return profile(filter, level, 1).time; }));
   }
 
   [[nodiscard]] std::vector<double> neighbours(double count) const {
@@ -126,10 +124,10 @@ class LadderSearch {
     for (int pass = 1;; ++pass) {
       Timing timing = profile(filter, optimism, kFullRounds);
       const bool proven = std::ranges::all_of(optimism, [](double o) { return o <= 1.0; });
-      if (timing.time >= bound || proven || stop_.stop_requested()) return timing;
+      if (timing.time >= bound || proven || stopped()) return timing;
       const auto count = static_cast<std::int64_t>(periods_of(timing.time, period()));
-      const std::vector<Place> places = sampled(timing, course_.limits.d, count, stop_);
-      const std::vector<double> ratio = ratios(course_, places, stop_).jerk;
+      const std::vector<Place> places = sampled(timing, course_.limits.d, count);
+      const std::vector<double> ratio = ratios(course_, places).jerk;
       if (*std::ranges::max_element(ratio) <= kAccepted) return timing;
       if (pass >= kMostPasses) {
         std::ranges::fill(optimism, 1.0);
@@ -143,7 +141,7 @@ class LadderSearch {
              double filter, bool to_proven) const {
     const auto reach = static_cast<std::size_t>(std::ceil(filter / period())) + 3;
     const Optimism before = optimism;
-    for (std::size_t k = 0; k < ratio.size() && !stops(stop_, k); ++k) {
+    for (std::size_t k = 0; k < ratio.size() && !stops(k); ++k) {
       if (ratio[k] <= kAccepted) continue;
       for_reach_of(places, k, reach, optimism.size(), [&](std::size_t i) {
         const double next = to_proven ? 1.0 : std::max(1.0, kJerkRelief * before[i] / ratio[k]);
@@ -157,23 +155,19 @@ class LadderSearch {
   FilteredProfiles& profiles_;
   const std::vector<double>& without_jerk_;
   double least_;
-  std::stop_token stop_;
 };
 
 /// Repairs plans by signed rows, filter by filter.
 class SignedSearch {
  public:
-  SignedSearch(const Course& course, FilteredProfiles& profiles, SignedRows rows,
-               const std::stop_token& stop)
-      : course_(course), profiles_(profiles), rows_(std::move(rows)), stop_(stop) {}
+  SignedSearch(const Course& course, FilteredProfiles& profiles, SignedRows rows)
+      : course_(course), profiles_(profiles), rows_(std::move(rows)) {}
 
   Timing best(double bound) {
     const Optimism level(intervals(), kStart);
     rows_.share.assign(intervals(), 1.0);
     const double count = best_octave(
-        course_,
-        [&](double filter) { return profiles_.by_signs(rows_, filter, level, 1, stop_).time; },
-        stop_);
+        course_, [&](double filter) { return profiles_.by_signs(rows_, filter, level, 1).time; });
     Timing found{{}, 0.0, bound};
     step_to(count, found);
     climb(count, longer, found);
@@ -202,7 +196,7 @@ class SignedSearch {
 
   /// Continues until two filters in sequence save nothing.
   void climb(double count, double (*next)(double), Timing& found) {
-    for (int idle = 0; idle < 2 && !stop_.stop_requested();) {
+    for (int idle = 0; idle < 2 && !stopped();) {
       count = next(count);
       if (count < 1.0) return;
       idle = step_to(count, found) ? 0 : idle + 1;
@@ -213,12 +207,12 @@ class SignedSearch {
   Timing repaired(double filter, double bound) {
     Optimism optimism(intervals(), kStart);
     rows_.share.assign(intervals(), 1.0);
-    for (int pass = 0; pass < kMostSignedPasses && !stop_.stop_requested(); ++pass) {
-      Timing timing = profiles_.by_signs(rows_, filter, optimism, kFullRounds, stop_);
-      if (timing.time >= bound || stop_.stop_requested()) break;
+    for (int pass = 0; pass < kMostSignedPasses && !stopped(); ++pass) {
+      Timing timing = profiles_.by_signs(rows_, filter, optimism, kFullRounds);
+      if (timing.time >= bound || stopped()) break;
       const auto count = static_cast<std::int64_t>(periods_of(timing.time, period()));
-      const std::vector<Place> places = sampled(timing, course_.limits.d, count, stop_);
-      if (!lower(optimism, places, ratios(course_, places, stop_), filter)) return timing;
+      const std::vector<Place> places = sampled(timing, course_.limits.d, count);
+      if (!lower(optimism, places, ratios(course_, places), filter)) return timing;
     }
     return {{}, filter, 1e300};
   }
@@ -229,7 +223,7 @@ class SignedSearch {
     const auto reach = static_cast<std::size_t>(std::ceil(filter / period())) + 3;
     const std::vector<double> optimism_before = optimism, share_before = rows_.share;
     bool lowered = false;
-    for (std::size_t k = 0; k < places.size() && !stops(stop_, k); ++k) {
+    for (std::size_t k = 0; k < places.size() && !stops(k); ++k) {
       const double jerk = ratio.jerk[k], acceleration = ratio.acceleration[k];
       if (jerk <= kAccepted && acceleration <= kAccepted) continue;
       lowered = true;
@@ -249,7 +243,6 @@ class SignedSearch {
   const Course& course_;
   FilteredProfiles& profiles_;
   SignedRows rows_;
-  std::stop_token stop_;
 };
 
 /// Finds the fastest plan by signed rows that is faster than `bound` seconds and whose samples keep
@@ -257,10 +250,8 @@ class SignedSearch {
 ///
 /// Source  docs/theory/pulse-schedules.md, section 6.3.
 Timing best_by_signed_rows(const Course& course, FilteredProfiles& profiles,
-                           const Profile& without_jerk, HalfPlanes acceleration, double bound,
-                           const std::stop_token& stop) {
-  return SignedSearch(course, profiles, {std::move(acceleration), without_jerk, {}}, stop)
-      .best(bound);
+                           const Profile& without_jerk, HalfPlanes acceleration, double bound) {
+  return SignedSearch(course, profiles, {std::move(acceleration), without_jerk, {}}).best(bound);
 }
 
 bool any_jerk(const PathLimits& limits) {
@@ -269,15 +260,14 @@ bool any_jerk(const PathLimits& limits) {
 
 /// Samples the plan and stretches it while a limit is broken; a stretch by K divides v, a, j by K,
 /// K^2, K^3.
-Result<void> settle(Plan& out, const Course& course, const PlanOptions& options, bool jerk,
-                    const std::stop_token& stop) {
+Result<void> settle(Plan& out, const Course& course, const PlanOptions& options, bool jerk) {
   for (;;) {
     const double periods = periods_of(out.timing.time * out.stretch, course.machine.period);
     if (!(periods <= static_cast<double>(options.max_periods)))
       return too_many_periods(periods, options.max_periods);
-    out.places = sampled(out.timing, course.limits.d, static_cast<std::int64_t>(periods), stop);
-    out.uses = uses(course, out.places, jerk, stop);
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    out.places = sampled(out.timing, course.limits.d, static_cast<std::int64_t>(periods));
+    out.uses = uses(course, out.places, jerk);
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     const double worst = out.uses.worst();
     if (worst <= kLastCheck) return {};
     out.stretch *= std::min(1.5, worst * 1.0005);
@@ -301,15 +291,15 @@ void limit_jerk(Plan& out, LadderSearch search, const Course& course, const Plan
 
 }  // namespace
 
-Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_token stop) {
-  Conditions base = without_jerk(course.limits, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  const std::vector<double> x = largest_profile(base.caps, course.limits.d, base.rows, stop);
+Result<Plan> plan(const Course& course, const PlanOptions& options) {
+  Conditions base = without_jerk(course.limits);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
+  const std::vector<double> x = largest_profile(base.caps, course.limits.d, base.rows);
   base = {};  // because its release at the end, with the rest, would delay a cancellation
-  HalfPlanes acceleration = acceleration_rows(course.limits, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  const Profile by_signs = fastest_profile(speed_caps(course.limits, stop), acceleration, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  HalfPlanes acceleration = acceleration_rows(course.limits);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
+  const Profile by_signs = fastest_profile(speed_caps(course.limits), acceleration);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   Plan out;
   out.least = duration(by_signs.bound, course.limits.d);
   out.timing = fastest_of(x, by_signs.x, course.limits.d);
@@ -320,18 +310,18 @@ Result<Plan> plan(const Course& course, const PlanOptions& options, std::stop_to
   const bool jerk = options.jerk && any_jerk(course.limits);
   if (jerk) {
     const double by_magnitudes = duration(x, course.limits.d);
-    FilteredProfiles profiles(course.limits, stop);
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-    limit_jerk(out, LadderSearch(course, options, profiles, x, stop), course, options);
-    if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+    FilteredProfiles profiles(course.limits);
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
+    limit_jerk(out, LadderSearch(course, options, profiles, x), course, options);
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
     if (!options.filter && options.optimism > 1.0 && by_magnitudes > kCancels * out.least) {
-      Timing faster = best_by_signed_rows(course, profiles, by_signs, std::move(acceleration),
-                                          out.timing.time, stop);
+      Timing faster =
+          best_by_signed_rows(course, profiles, by_signs, std::move(acceleration), out.timing.time);
       if (!faster.x.empty()) out.timing = std::move(faster);
     }
   }
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
-  TRY(settle(out, course, options, jerk, stop));
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
+  TRY(settle(out, course, options, jerk));
   return out;
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/path/course.hpp"
@@ -34,7 +33,6 @@ struct Plan {
 ///
 /// Errors  too_many_periods (before samples are taken), cancelled.
 /// Source  docs/theory/pulse-schedules.md, sections 6.2 and 6.3.
-[[nodiscard]] Result<Plan> plan(const Course& course, const PlanOptions& options,
-                                std::stop_token stop);
+[[nodiscard]] Result<Plan> plan(const Course& course, const PlanOptions& options);
 
 }  // namespace tubecut::motion

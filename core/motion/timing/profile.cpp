@@ -87,10 +87,9 @@ class Stage {
 };
 
 /// Returns the largest value at every knot from which the last knot can be reached.
-std::vector<double> reaching(std::vector<double> most, const HalfPlanes& rows,
-                             const std::stop_token& stop) {
+std::vector<double> reaching(std::vector<double> most, const HalfPlanes& rows) {
   const std::size_t n = most.size() - 1;
-  for (std::size_t turn = 0; turn < n && !stops(stop, turn); ++turn) {
+  for (std::size_t turn = 0; turn < n && !stops(turn); ++turn) {
     const std::size_t i = n - 1 - turn;
     most[i] = Stage(rows, i, true).largest_near(most[i], most[i + 1]);
   }
@@ -98,9 +97,8 @@ std::vector<double> reaching(std::vector<double> most, const HalfPlanes& rows,
 }
 
 /// Returns the largest of those that can also be reached from the first knot.
-std::vector<double> reached(std::vector<double> most, const HalfPlanes& rows,
-                            const std::stop_token& stop) {
-  for (std::size_t i = 0; i + 1 < most.size() && !stops(stop, i); ++i) {
+std::vector<double> reached(std::vector<double> most, const HalfPlanes& rows) {
+  for (std::size_t i = 0; i + 1 < most.size() && !stops(i); ++i) {
     most[i + 1] = Stage(rows, i, false).largest_near(most[i + 1], most[i]);
   }
   return most;
@@ -109,8 +107,8 @@ std::vector<double> reached(std::vector<double> most, const HalfPlanes& rows,
 /// If a row holds both knots down, a faster choice at one of them makes the other slower. Two caps
 /// replace it: the corner that it cuts from the box of `bound`, shrunk.
 std::vector<double> cornered(std::vector<double> caps, const std::vector<double>& bound,
-                             const HalfPlanes& rows, const std::stop_token& stop) {
-  for (std::size_t i = 0; i + 1 < caps.size() && !stops(stop, i); ++i) {
+                             const HalfPlanes& rows) {
+  for (std::size_t i = 0; i + 1 < caps.size() && !stops(i); ++i) {
     for (std::size_t r = rows.first[i]; r < rows.first[i + 1]; ++r) {
       const HalfPlane& row = rows.rows[r];
       if (row.start <= 0.0 || row.end <= 0.0) continue;
@@ -125,12 +123,11 @@ std::vector<double> cornered(std::vector<double> caps, const std::vector<double>
 
 }  // namespace
 
-std::vector<double> largest_profile(std::vector<double> x, double d, const Rows& rows,
-                                    const std::stop_token& stop) {
+std::vector<double> largest_profile(std::vector<double> x, double d, const Rows& rows) {
   const std::size_t n = x.size() - 1;
   std::vector<double> slope, shift;
   for (auto* const of : {&slope, &shift}) of->reserve(rows.rows.size());
-  for (std::size_t i = 0; i < n && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i < n && !stops(i); ++i) {
     // Interval by interval, because filling all at once delays a cancellation.
     for (auto* const of : {&slope, &shift}) of->resize(rows.first[i + 1]);
     for (std::size_t r = rows.first[i]; r < rows.first[i + 1]; ++r) {
@@ -150,9 +147,8 @@ std::vector<double> largest_profile(std::vector<double> x, double d, const Rows&
     }
     return most;
   };
-  for (std::size_t i = 0; i < n && !stops(stop, i); ++i)
-    x[i + 1] = std::min(x[i + 1], reach(i, x[i]));
-  for (std::size_t turn = 0; turn < n && !stops(stop, turn); ++turn) {
+  for (std::size_t i = 0; i < n && !stops(i); ++i) x[i + 1] = std::min(x[i + 1], reach(i, x[i]));
+  for (std::size_t turn = 0; turn < n && !stops(turn); ++turn) {
     const std::size_t i = n - 1 - turn;
     x[i] = std::min(x[i], reach(i, x[i + 1]));
   }
@@ -160,20 +156,18 @@ std::vector<double> largest_profile(std::vector<double> x, double d, const Rows&
 }
 
 std::vector<double> fastest_within(const std::vector<double>& caps,
-                                   const std::vector<double>& bound, const HalfPlanes& rows,
-                                   const std::stop_token& stop) {
-  const std::vector<double> most = reaching(cornered(caps, bound, rows, stop), rows, stop);
+                                   const std::vector<double>& bound, const HalfPlanes& rows) {
+  const std::vector<double> most = reaching(cornered(caps, bound, rows), rows);
   std::vector<double> x = most;
-  for (std::size_t i = 0; i + 1 < x.size() && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i + 1 < x.size() && !stops(i); ++i) {
     x[i + 1] = Stage(rows, i, true).largest_far(x[i], most[i + 1]);
   }
   return x;
 }
 
-Profile fastest_profile(const std::vector<double>& caps, const HalfPlanes& rows,
-                        const std::stop_token& stop) {
-  std::vector<double> bound = reached(reaching(caps, rows, stop), rows, stop);
-  std::vector<double> x = fastest_within(caps, bound, rows, stop);
+Profile fastest_profile(const std::vector<double>& caps, const HalfPlanes& rows) {
+  std::vector<double> bound = reached(reaching(caps, rows), rows);
+  std::vector<double> x = fastest_within(caps, bound, rows);
   return {std::move(x), std::move(bound)};
 }
 

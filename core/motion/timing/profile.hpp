@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <stop_token>
 #include <vector>
 
 namespace tubecut::motion {
@@ -28,8 +27,7 @@ struct Rows {
 /// Cost    one multiply-add per row and pass.
 /// Source  docs/theory/pulse-schedules.md, section 6.1 (with the proof).
 [[nodiscard]] std::vector<double> largest_profile(std::vector<double> caps, double d,
-                                                  const Rows& rows,
-                                                  const std::stop_token& stop = {});
+                                                  const Rows& rows);
 
 /// One condition start x_i + end x_(i+1) <= 1 on an interval; x = u_dot^2 at its two knots. Rest, x
 /// = 0, always satisfies it.
@@ -64,15 +62,13 @@ struct Profile {
 /// Accuracy  rows hold to 1e-11. Time over that of `bound` at most 1.01 in 200 random short cuts.
 /// Cost      four passes; a multiply-add per row if a cap binds, about four if a row binds.
 /// Source    docs/theory/pulse-schedules.md, section 6.2.
-[[nodiscard]] Profile fastest_profile(const std::vector<double>& caps, const HalfPlanes& rows,
-                                      const std::stop_token& stop = {});
+[[nodiscard]] Profile fastest_profile(const std::vector<double>& caps, const HalfPlanes& rows);
 
 /// Computes only the profile; caps in the proportion of `bound` replace rows that hold both knots
 /// down.
 [[nodiscard]] std::vector<double> fastest_within(const std::vector<double>& caps,
                                                  const std::vector<double>& bound,
-                                                 const HalfPlanes& rows,
-                                                 const std::stop_token& stop = {});
+                                                 const HalfPlanes& rows);
 
 /// Computes the time over a profile: sum of 2 d / (sqrt x_i + sqrt x_(i+1)), s.
 [[nodiscard]] double duration(const std::vector<double>& x, double d);

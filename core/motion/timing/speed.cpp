@@ -39,14 +39,15 @@ Result<void> check_table(const SpeedTable& table) {
 }
 
 Result<void> check_covered(const SpeedTable& table, const Program& program) {
-  for (std::size_t i = 0; i < program.size(); ++i) {
-    const double beam = program.beam[i];
-    const double low = table.pairs.front().first, high = table.pairs.back().first;
-    if (beam >= low && beam <= high) continue;
-    return fail({ErrorCode::speed_table_range, "motion/speed/table", beam, beam < low ? low : high,
-                 "mm", "at phi " + std::to_string(program.x[0][i] * kDegPerRad) + " deg"});
-  }
-  return {};
+  const double low = table.pairs.front().first, high = table.pairs.back().first;
+  const auto [least, most] = std::ranges::minmax_element(program.beam);
+  const bool above = most != program.beam.end() && *most > high;
+  if (!above && (least == program.beam.end() || *least >= low)) return {};
+  const auto worst = above ? most : least;
+  const double phi = program.x[0][static_cast<std::size_t>(worst - program.beam.begin())];
+  const double turned = phi - kTwoPi * std::floor(phi / kTwoPi);
+  return fail({ErrorCode::speed_table_range, "motion/speed/table", *worst, above ? high : low, "mm",
+               "at phi " + brief(turned * kDegPerRad) + " deg"});
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/make_room.hpp"
 #include "core/base/stop.hpp"
 #include "core/motion/timing/window_maxima.hpp"
 
@@ -63,9 +62,9 @@ void add_scaled(const HalfPlanes& rows, std::size_t i, double scale, HalfPlanes&
 
 }  // namespace
 
-FilteredProfiles::FilteredProfiles(const PathLimits& limits, const std::stop_token& stop)
+FilteredProfiles::FilteredProfiles(const PathLimits& limits)
     : limits_(limits),
-      maxima_(limits, stop),
+      maxima_(limits),
       beside_(around(limits.intervals(), kReach)),
       root_(limits.intervals() + 1),
       bound_(limits.intervals()),
@@ -91,20 +90,18 @@ FilteredProfiles::FilteredProfiles(const PathLimits& limits, const std::stop_tok
 }
 
 /// Computes maxima over the filter's windows, from the fastest profile so far.
-void FilteredProfiles::look_round(const std::vector<double>& fastest, double filter,
-                                  const std::stop_token& stop) {
+void FilteredProfiles::look_round(const std::vector<double>& fastest, double filter) {
   for (std::size_t j = 0; j < root_.size(); ++j) root_[j] = std::sqrt(fastest[j]);
   reach_of(root_, limits_.d, filter, windows_);
   for (std::size_t i = 0; i < bound_.size(); ++i) {
     maxima_.set_speed(i, std::max(root_[i], root_[i + 1]));
   }
-  maxima_.widen(windows_, stop);
+  maxima_.widen(windows_);
 }
 
 /// Bounds |u_ddot| by the filter's edges and, if `by_axes`, by acceleration.
-void FilteredProfiles::bound_acceleration(double filter, bool by_axes,
-                                          const std::stop_token& stop) {
-  for (std::size_t i = 0; i < bound_.size() && !stops(stop, i); ++i) {
+void FilteredProfiles::bound_acceleration(double filter, bool by_axes) {
+  for (std::size_t i = 0; i < bound_.size() && !stops(i); ++i) {
     double edges = 0.0, axes = 0.0;  // u_ddot times these is 1
     for (std::size_t a = 0; a < maxima_.axes(); a += kPack) {
       const Pack first = maxima_.first(i, a);
@@ -122,11 +119,11 @@ void FilteredProfiles::bound_acceleration(double filter, bool by_axes,
 }
 
 /// Permits only slightly more than the values that the previous round used nearby.
-void FilteredProfiles::tighten(const std::vector<double>& x, const std::stop_token& stop) {
+void FilteredProfiles::tighten(const std::vector<double>& x) {
   for (std::size_t i = 0; i < used_.size(); ++i) {
     used_[i] = std::abs(x[i + 1] - x[i]) / (2.0 * limits_.d);
   }
-  widen(used_, beside_, stop, wide_);
+  widen(used_, beside_, wide_);
   for (std::size_t i = 0; i < bound_.size(); ++i) {
     bound_[i] = std::min(bound_[i], 1.1 * wide_[i] + 0.02 * bound_[i]);
   }
@@ -134,11 +131,11 @@ void FilteredProfiles::tighten(const std::vector<double>& x, const std::stop_tok
 
 /// Computes the jerk rows: curvature takes its part of the budget, up to `kEdgeShare`, from the
 /// edges' limit of |u_ddot|; if it needs more, a row is added.
-void FilteredProfiles::bound_edges(double filter, const std::stop_token& stop) {
-  widen(bound_, windows_, stop, wide_);
+void FilteredProfiles::bound_edges(double filter) {
+  widen(bound_, windows_, wide_);
   extra_.clear();
   extra_first_.assign(1, 0);
-  for (std::size_t i = 0; i < bound_.size() && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i < bound_.size() && !stops(i); ++i) {
     const double speed = maxima_.speed(i), optimism = maxima_.optimism(i);
     double most = bound_[i];
     for (std::size_t a = 0; a < maxima_.axes(); a += kPack) {
@@ -150,7 +147,6 @@ void FilteredProfiles::bound_edges(double filter, const std::stop_token& stop) {
       if (!(need > kEdgeShare * jerk).any()) continue;
       for (Eigen::Index k = 0; k < jerk.size(); ++k) {
         if (!(need[k] > kEdgeShare * jerk[k])) continue;
-        make_room(extra_, stop);
         extra_.push_back({second[k], third[k], kEdgeShare * jerk[k]});
       }
     }
@@ -200,11 +196,10 @@ double FilteredProfiles::reach(std::size_t i, double from, double most) const {
 }
 
 /// Same as `largest_profile`, with its rows read from the maxima.
-std::vector<double> FilteredProfiles::passed(std::vector<double> x,
-                                             const std::stop_token& stop) const {
+std::vector<double> FilteredProfiles::passed(std::vector<double> x) const {
   const std::size_t n = limits_.intervals();
-  for (std::size_t i = 0; i < n && !stops(stop, i); ++i) x[i + 1] = reach(i, x[i], x[i + 1]);
-  for (std::size_t turn = 0; turn < n && !stops(stop, turn); ++turn) {
+  for (std::size_t i = 0; i < n && !stops(i); ++i) x[i + 1] = reach(i, x[i], x[i + 1]);
+  for (std::size_t turn = 0; turn < n && !stops(turn); ++turn) {
     const std::size_t i = n - 1 - turn;
     x[i] = reach(i, x[i + 1], x[i]);
   }
@@ -212,13 +207,12 @@ std::vector<double> FilteredProfiles::passed(std::vector<double> x,
 }
 
 /// Returns the rows of acceleration without windows, and those of jerk with them.
-HalfPlanes FilteredProfiles::signed_rows(const SignedRows& rows,
-                                         const std::stop_token& stop) const {
+HalfPlanes FilteredProfiles::signed_rows(const SignedRows& rows) const {
   HalfPlanes out;
   // Reserve the maximum, because growth would move everything.
   out.rows.reserve(rows.acceleration.rows.size() + 2 * bound_.size() + 4 * extra_.size());
   out.first.reserve(bound_.size() + 1);
-  for (std::size_t i = 0; i < bound_.size() && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i < bound_.size() && !stops(i); ++i) {
     add_scaled(rows.acceleration, i, 1.0 / rows.share[i], out);
     for (std::size_t r = extra_first_[i]; r < extra_first_[i + 1]; ++r) {
       if (extra_[r].beta > 0.0) add_magnitude(extra_[r], limits_.d, out);
@@ -233,16 +227,15 @@ HalfPlanes FilteredProfiles::signed_rows(const SignedRows& rows,
 /// faster.
 template <class Solve>
 Timing FilteredProfiles::refined(const std::vector<double>& without_jerk, double filter,
-                                 const Optimism& optimism, int rounds, const Solve& solve,
-                                 const std::stop_token& stop) {
+                                 const Optimism& optimism, int rounds, const Solve& solve) {
   Timing best{{}, filter, 1e300};
   std::vector<double> fastest = without_jerk;
   std::vector<double> x;
   for (std::size_t i = 0; i < optimism.size(); ++i) maxima_.set_optimism(i, optimism[i]);
-  for (int round = 0; round < rounds && !stop.stop_requested(); ++round) {
-    look_round(fastest, filter, stop);
+  for (int round = 0; round < rounds && !stopped(); ++round) {
+    look_round(fastest, filter);
     x = solve(x, fastest);
-    if (stop.stop_requested()) break;
+    if (stopped()) break;
     const double time = duration(x, limits_.d) + filter;
     if (!(time < best.time)) break;
     best = {x, filter, time};
@@ -254,29 +247,28 @@ Timing FilteredProfiles::refined(const std::vector<double>& without_jerk, double
 }
 
 Timing FilteredProfiles::by_magnitudes(const std::vector<double>& without_jerk, double filter,
-                                       const Optimism& optimism, int rounds,
-                                       const std::stop_token& stop) {
+                                       const Optimism& optimism, int rounds) {
   const auto solve = [&](const std::vector<double>& before, const std::vector<double>& fastest) {
-    bound_acceleration(filter, true, stop);
-    if (!before.empty()) tighten(before, stop);
-    bound_edges(filter, stop);
-    if (stop.stop_requested()) return fastest;  // not all rows are present
-    return passed(capped(fastest), stop);
+    bound_acceleration(filter, true);
+    if (!before.empty()) tighten(before);
+    bound_edges(filter);
+    if (stopped()) return fastest;  // not all rows are present
+    return passed(capped(fastest));
   };
-  return refined(without_jerk, filter, optimism, rounds, solve, stop);
+  return refined(without_jerk, filter, optimism, rounds, solve);
 }
 
 Timing FilteredProfiles::by_signs(const SignedRows& rows, double filter, const Optimism& optimism,
-                                  int rounds, const std::stop_token& stop) {
+                                  int rounds) {
   const auto solve = [&](const std::vector<double>& before, const std::vector<double>& fastest) {
-    bound_acceleration(filter, false, stop);
-    if (!before.empty()) tighten(before, stop);
-    bound_edges(filter, stop);
-    const HalfPlanes all = signed_rows(rows, stop);
-    if (stop.stop_requested()) return fastest;  // not all rows are present
-    return fastest_within(capped(fastest), rows.without_jerk.bound, all, stop);
+    bound_acceleration(filter, false);
+    if (!before.empty()) tighten(before);
+    bound_edges(filter);
+    const HalfPlanes all = signed_rows(rows);
+    if (stopped()) return fastest;  // not all rows are present
+    return fastest_within(capped(fastest), rows.without_jerk.bound, all);
   };
-  return refined(rows.without_jerk.x, filter, optimism, rounds, solve, stop);
+  return refined(rows.without_jerk.x, filter, optimism, rounds, solve);
 }
 
 }  // namespace tubecut::motion

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/path/path_limits.hpp"
@@ -31,7 +30,7 @@ struct SignedRows {
 class FilteredProfiles {
  public:
   /// If cancelled, they are incomplete and must not be used.
-  explicit FilteredProfiles(const PathLimits& limits, const std::stop_token& stop = {});
+  explicit FilteredProfiles(const PathLimits& limits);
 
   /// Computes the profile for a filter of `filter` seconds. With optimism 1 everywhere the filtered
   /// motion provably keeps every limit.
@@ -39,8 +38,7 @@ class FilteredProfiles {
   /// Cost    at most `rounds` (1..4) times the maxima over windows and two passes.
   /// Source  docs/theory/pulse-schedules.md, section 6.4 (with the proof).
   [[nodiscard]] Timing by_magnitudes(const std::vector<double>& without_jerk, double filter,
-                                     const Optimism& optimism, int rounds,
-                                     const std::stop_token& stop = {});
+                                     const Optimism& optimism, int rounds);
 
   /// Computes the same with |q' u_ddot + q'' x| <= share a_max in place of the sum of magnitudes,
   /// so that terms of opposite signs cancel. A mean over the filter's window violates these rows by
@@ -50,21 +48,20 @@ class FilteredProfiles {
   /// Cost    as `by_magnitudes`, times about 4.
   /// Source  docs/theory/pulse-schedules.md, section 6.3.
   [[nodiscard]] Timing by_signs(const SignedRows& rows, double filter, const Optimism& optimism,
-                                int rounds, const std::stop_token& stop = {});
+                                int rounds);
 
  private:
   template <class Solve>
   Timing refined(const std::vector<double>& without_jerk, double filter, const Optimism& optimism,
-                 int rounds, const Solve& solve, const std::stop_token& stop);
-  void look_round(const std::vector<double>& fastest, double filter, const std::stop_token& stop);
-  void bound_acceleration(double filter, bool by_axes, const std::stop_token& stop);
-  void tighten(const std::vector<double>& x, const std::stop_token& stop);
-  void bound_edges(double filter, const std::stop_token& stop);
+                 int rounds, const Solve& solve);
+  void look_round(const std::vector<double>& fastest, double filter);
+  void bound_acceleration(double filter, bool by_axes);
+  void tighten(const std::vector<double>& x);
+  void bound_edges(double filter);
   [[nodiscard]] std::vector<double> capped(const std::vector<double>& fastest) const;
   [[nodiscard]] double reach(std::size_t i, double from, double most) const;
-  [[nodiscard]] std::vector<double> passed(std::vector<double> x,
-                                           const std::stop_token& stop) const;
-  [[nodiscard]] HalfPlanes signed_rows(const SignedRows& rows, const std::stop_token& stop) const;
+  [[nodiscard]] std::vector<double> passed(std::vector<double> x) const;
+  [[nodiscard]] HalfPlanes signed_rows(const SignedRows& rows) const;
 
   const PathLimits& limits_;
   WindowMaxima maxima_;

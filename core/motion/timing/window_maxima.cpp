@@ -7,14 +7,13 @@
 
 namespace tubecut::motion {
 
-void widen(const std::vector<double>& values, const Windows& w, const std::stop_token& stop,
-           std::vector<double>& out) {
+void widen(const std::vector<double>& values, const Windows& w, std::vector<double>& out) {
   const std::size_t n = w.low.size();
   out.resize(n);
   std::vector<std::uint32_t> queue(values.size());  // falling values, candidates of later windows
   std::size_t head = 0, tail = 0;
   std::uint32_t next = 0;
-  for (std::size_t i = 0; i < n && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i < n && !stops(i); ++i) {
     for (; next <= w.high[i]; ++next) {
       while (tail > head && values[queue[tail - 1]] <= values[next]) --tail;
       queue[tail++] = next;
@@ -24,7 +23,7 @@ void widen(const std::vector<double>& values, const Windows& w, const std::stop_
   }
 }
 
-WindowMaxima::WindowMaxima(const PathLimits& limits, const std::stop_token& stop)
+WindowMaxima::WindowMaxima(const PathLimits& limits)
     : axes_((limits.axes.size() + kPack - 1) / kPack * kPack),
       slowness_(3 * axes_),
       optimism_(slowness_ + 1),
@@ -34,7 +33,7 @@ WindowMaxima::WindowMaxima(const PathLimits& limits, const std::stop_token& stop
   for (std::size_t i = 0; i < limits.intervals(); ++i) {
     // Row by row, with more frequent checks, because all at once takes tens of milliseconds, and
     // the first access to a page of 2 MiB up to eight.
-    if (i % 128 == 0 && stop.stop_requested()) return;
+    if (i % 128 == 0 && stopped()) return;
     for (auto* const of : {&rows_, &maxima_}) of->resize((i + 1) * width_, 0.0);
     double* const row = at(rows_, i);
     for (std::size_t a = 0; a < limits.axes.size(); ++a) {
@@ -55,11 +54,11 @@ void WindowMaxima::raise(const double* a, const double* b, double* to) const {
 /// A window consists of the rows before a pivot, whose maxima up to it are stored for every row,
 /// and the rows after it, of which one maximum is kept. When the pivot leaves the window, the
 /// window's last row becomes the next one.
-void WindowMaxima::widen(const Windows& w, const std::stop_token& stop) {
+void WindowMaxima::widen(const Windows& w) {
   const std::vector<double> none(width_, -std::numeric_limits<double>::infinity());
   std::vector<double> tail = none;
   std::size_t pivot = 0, base = 0, next = 0;
-  for (std::size_t i = 0; i < w.low.size() && !stops(stop, i); ++i) {
+  for (std::size_t i = 0; i < w.low.size() && !stops(i); ++i) {
     for (; next <= w.high[i]; ++next) raise(tail.data(), at(rows_, next), tail.data());
     if (w.low[i] >= pivot) {
       pivot = next;

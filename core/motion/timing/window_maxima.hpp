@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <stop_token>
 #include <vector>
 
 #include "core/motion/path/path_limits.hpp"
@@ -23,8 +22,7 @@ struct Windows {
 /// Computes the largest value of `values` over each window.
 ///
 /// Cost  each value is added and removed once.
-void widen(const std::vector<double>& values, const Windows& w, const std::stop_token& stop,
-           std::vector<double>& out);
+void widen(const std::vector<double>& values, const Windows& w, std::vector<double>& out);
 
 /// Maxima of every bound of a path over the windows of its intervals, and of two more columns that
 /// change from trial to trial. A row contains all columns of an interval, so that one comparison of
@@ -32,7 +30,7 @@ void widen(const std::vector<double>& values, const Windows& w, const std::stop_
 class WindowMaxima {
  public:
   /// If cancelled, it is incomplete and must not be used.
-  explicit WindowMaxima(const PathLimits& limits, const std::stop_token& stop = {});
+  explicit WindowMaxima(const PathLimits& limits);
 
   void set_optimism(std::size_t i, double optimism) { at(rows_, i)[optimism_] = -optimism; }
   void set_speed(std::size_t i, double speed) { at(rows_, i)[speed_] = speed; }
@@ -40,7 +38,7 @@ class WindowMaxima {
   /// Computes the maxima over the windows.
   ///
   /// Cost  three comparisons of rows an interval, for any windows.
-  void widen(const Windows& w, const std::stop_token& stop);
+  void widen(const Windows& w);
 
   /// Return |q'|, |q''| and |q'''| of axes `a` and the following, 0 after the last.
   [[nodiscard]] Pack first(std::size_t i, std::size_t a) const { return pack(i, a); }

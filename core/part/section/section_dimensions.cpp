@@ -108,9 +108,8 @@ std::vector<Shape> with(Mistake mistake, const Shape& shape) {
 
 }  // namespace
 
-std::vector<CheckDimension> check_dimensions(const SectionShape& shape,
-                                             const std::stop_token& stop) {
-  return measured(gauges(shape), shape, kMistakes, with, girth(shape), stop);
+std::vector<CheckDimension> check_dimensions(const SectionShape& shape) {
+  return measured(gauges(shape), shape, kMistakes, with, girth(shape));
 }
 
 }  // namespace tubecut::part

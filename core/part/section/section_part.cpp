@@ -6,11 +6,12 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/part/cut_edges.hpp"
-#include "core/part/cutout_webs.hpp"
 #include "core/part/opening_order.hpp"
 #include "core/part/place.hpp"
+#include "core/part/text_clearance.hpp"
 
 namespace tubecut::part {
 namespace {
@@ -23,15 +24,15 @@ Edge outer_edge(const SectionTable& t) { return edge_over_girth(t, t.z_outer); }
 Edge inner_edge(const SectionTable& t) { return edge_over_girth(t, t.z_inner); }
 
 /// Cuts the end in its own frame.
-Result<SectionEnd> cut_end(const SectionPartSpec& spec, bool finish, const std::stop_token& stop) {
+Result<SectionEnd> cut_end(const SectionPartSpec& spec, bool finish) {
   const auto& asked = finish ? spec.finish : spec.start;
   SectionEnd out{.spec = asked.cut};
   out.spec.target.length = spec.length;
-  TRY(out.own, under(joint::end_name(finish), bevel::section_table(spec.section, out.spec, stop)));
+  TRY(out.own, under(joint::end_name(finish), bevel::section_table(spec.section, out.spec)));
   if (!asked.welded) return out;
   out.weld_length = welded_length(out.spec, out.own);
-  out.groove_volume = groove_volume(section::Wall(spec.section), out.spec, out.own, stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  out.groove_volume = groove_volume(section::Wall(spec.section), out.spec, out.own);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 
@@ -137,13 +138,6 @@ void assemble(const SectionPartSpec& spec, SectionPart& out) {
   out.marks = marks(spec, out);
 }
 
-Result<void> cut_cutouts(const SectionPartSpec& spec, SectionPart& out) {
-  if (spec.cutouts.all.empty()) return {};
-  TRY(out.cutouts, cutout::lay(spec.cutouts.all, cutout_ground(spec, out)));
-  TRY(out.cutout_report, check_cutouts(spec, out));
-  return {};
-}
-
 }  // namespace
 
 cutout::Ground cutout_ground(const SectionPartSpec& spec, const SectionPart& part) {
@@ -159,10 +153,10 @@ cutout::Ground cutout_ground(const SectionPartSpec& spec, const SectionPart& par
           .tolerance = std::min(spec.cutouts.tolerance, kHoleTolerance)};
 }
 
-Result<SectionPart> section_part(const SectionPartSpec& spec, const std::stop_token& stop) {
+Result<SectionPart> section_part(const SectionPartSpec& spec) {
   SectionPart out;
   for (const bool finish : {false, true}) {
-    TRY(auto end, cut_end(spec, finish, stop));
+    TRY(auto end, cut_end(spec, finish));
     // A plane square to the axis has no relevant warnings.
     if ((finish ? spec.finish : spec.start).welded)
       carry(end.own.warnings, joint::end_name(finish), out.warnings);
@@ -170,14 +164,13 @@ Result<SectionPart> section_part(const SectionPartSpec& spec, const std::stop_to
   }
   assemble(spec, out);
   const auto &s = out.start.table, &f = out.finish.table;
-  TRY(check_left({{inner_edge(s), inner_edge(f)}, {outer_edge(s), outer_edge(f)}}, spec.length,
-                 stop));
-  TRY(cut_cutouts(spec, out));
+  TRY(check_left({{inner_edge(s), inner_edge(f)}, {outer_edge(s), outer_edge(f)}}, spec.length));
+  TRY(add_cutouts_and_texts(spec, out));
   out.sequence = sequence_of(out);
   out.clocking = clocking_between(spec.start.cut.partners, spec.finish.cut.partners);
   out.lengths = lengths(spec, out);
-  out.check_dimensions = check_dimensions(shape_of(spec, out), stop);
-  if (stop.stop_requested()) return fail({.code = ErrorCode::cancelled});
+  out.check_dimensions = check_dimensions(shape_of(spec, out));
+  if (stopped()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
 

@@ -23,7 +23,6 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -36,11 +35,12 @@
 
 namespace tubecut::part {
 
-/// A line or point to be drawn on the outside for the fitter.
+/// A line, point or text to be drawn on the outside for the fitter.
 struct SectionMark {
   Mark::Kind kind = Mark::Kind::datum_line;
   std::string text = {};
-  double s = 0.0, z_from = 0.0, z_to = 0.0;
+  double s = 0.0, z_from = 0.0, z_to = 0.0;         // s of a text's anchor
+  std::optional<cutout::Lettering> lettering = {};  // of a text
 };
 
 struct SectionPartSpec {
@@ -52,7 +52,7 @@ struct SectionPartSpec {
   std::string name = {};
   double clamping = 0.0, facing = 0.0;  // allowances of the blank
   double density = 7850.0;              // kg/m^3
-  CutoutSpecs cutouts = {};             // each on one flat
+  CutoutSpecs cutouts = {};             // each cut-out on one flat
 };
 
 /// A place on the part's outer edge.
@@ -92,7 +92,7 @@ struct SectionPart {
   Lengths lengths;
   std::array<FaceLength, 4> faces;
   std::vector<CheckDimension> check_dimensions;
-  std::vector<SectionMark> marks;
+  std::vector<SectionMark> marks;  // texts last
   cutout::Layout cutouts = {};
   CutoutReport cutout_report = {};
   std::vector<Step> sequence;
@@ -106,20 +106,18 @@ struct SectionPart {
 ///         finish, the same faces have the same numbers. B > 0 everywhere: the outer edge lies
 ///         further towards +z.
 /// Errors  those of bevel::section_table, under start/... and finish/...; member_consumed (the two
-///         cuts meet); those of cutout::lay and check_cutouts.
+///         cuts meet); those of cutout::lay, check_cutouts, cutout::lay_texts and check_texts.
 /// Accuracy  a point's place in the world within 1e-12 of the lengths involved of the end's own;
 ///           volumes within 1e-9 of themselves of the surface between the rows.
 /// Source  docs/theory/parts.md; docs/theory/sections.md, sections 8 and 9.
-[[nodiscard]] Result<SectionPart> section_part(const SectionPartSpec& spec,
-                                               const std::stop_token& stop = {});
+[[nodiscard]] Result<SectionPart> section_part(const SectionPartSpec& spec);
 
 /// Returns what cut-outs are laid on, once the part's ends are cut.
 [[nodiscard]] cutout::Ground cutout_ground(const SectionPartSpec& spec, const SectionPart& part);
 
 /// Verifies the part from its own numbers: each end's checks (the worst of both), every point
 /// placed by a matrix, the volume by facets.
-[[nodiscard]] std::vector<Check> verify(const SectionPartSpec& spec, const SectionPart& part,
-                                        const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Check> verify(const SectionPartSpec& spec, const SectionPart& part);
 
 /// Transforms a finish's table into the start's frame, `length` away: see seen_from_start of a
 /// round tube's table.
@@ -138,8 +136,7 @@ struct SectionPart {
 /// Computes the volume between an end's cut and its partners' metal, as `groove_volume` of a round
 /// tube.
 [[nodiscard]] double groove_volume(const section::Wall& wall, const bevel::TableSpec& spec,
-                                   const bevel::SectionTable& table,
-                                   const std::stop_token& stop = {});
+                                   const bevel::SectionTable& table);
 
 /// The finished part as an operator sees it: two closed edges at each end, over the share of the
 /// girth.
@@ -150,7 +147,6 @@ struct SectionShape {
 };
 /// Returns up to 14 dimensions, as `check_dimensions` of a round part. If cancelled, returns fewer
 /// mistakes.
-[[nodiscard]] std::vector<CheckDimension> check_dimensions(const SectionShape& shape,
-                                                           const std::stop_token& stop);
+[[nodiscard]] std::vector<CheckDimension> check_dimensions(const SectionShape& shape);
 
 }  // namespace tubecut::part

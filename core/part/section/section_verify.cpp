@@ -6,9 +6,11 @@
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stop.hpp"
 #include "core/part/section/section_part.hpp"
 #include "core/part/section/section_strips.hpp"
 #include "core/part/square_holes.hpp"
+#include "core/part/text_clearance.hpp"
 #include "core/part/worst_checks.hpp"
 
 namespace tubecut::part {
@@ -41,15 +43,14 @@ std::array<Vector3d, 5> row_in_space(const SectionTable& t, std::size_t i) {
 }
 
 /// Checks that every row of the part's table holds the points of a row of the end's own.
-double misplaced(const SectionEnd& end, bool finish, const RigidMotion& place,
-                 const std::stop_token& stop) {
+double misplaced(const SectionEnd& end, bool finish, const RigidMotion& place) {
   const auto n = end.own.at.size();
   if (end.table.at.size() != n) return 1.0;
   // The rows on the datum line come first both ways; one may lie just before it, by rounding.
   std::size_t zeros = 0;
   while (zeros < n && std::abs(std::remainder(end.own.at[zeros].s, end.own.girth)) < 1e-9) ++zeros;
   double worst = 0.0;
-  for (std::size_t k = 0; k < n && !stop.stop_requested(); ++k) {
+  for (std::size_t k = 0; k < n && !stopped(); ++k) {
     const auto i = !finish ? k : k < zeros ? zeros - 1 - k : n - 1 - (k - zeros);
     const auto here = row_in_space(end.table, k), own = row_in_space(end.own, i);
     for (std::size_t p = 0; p < 4; ++p) worsen(worst, (place(here[p]) - own[p]).norm());
@@ -98,11 +99,11 @@ double by_facets(const SectionSurface& surface, std::size_t row, double from, do
   return bc + (bc - ab) / 15.0;
 }
 
-double volume_of(const section::Wall& wall, const SectionEnd& end, const std::stop_token& stop) {
+double volume_of(const section::Wall& wall, const SectionEnd& end) {
   const SectionSurface surface(wall, end.spec, end.table);
   double sum = 0.0;
   each_smooth_strip(surface, [&](std::size_t row, double from, double to) {
-    if (!stop.stop_requested()) sum += by_facets(surface, row, from, to);
+    if (!stopped()) sum += by_facets(surface, row, from, to);
   });
   return sum;
 }
@@ -140,26 +141,26 @@ double faces_off(const SectionPartSpec& spec, const SectionPart& p) {
 
 }  // namespace
 
-std::vector<Check> verify(const SectionPartSpec& spec, const SectionPart& part,
-                          const std::stop_token& stop) {
+std::vector<Check> verify(const SectionPartSpec& spec, const SectionPart& part) {
   WorstChecks all;
-  all.see(bevel::verify(spec.section, part.start.spec, part.start.own, stop), "");
-  all.see(bevel::verify(spec.section, part.finish.spec, part.finish.own, stop), "");
+  all.see(bevel::verify(spec.section, part.start.spec, part.start.own), "");
+  all.see(bevel::verify(spec.section, part.finish.spec, part.finish.own), "");
   auto out = all.take();
   const section::Wall wall(spec.section);
   const double start =
       spec.start_frame.rows.row(2).dot(part.frame.origin - spec.start_frame.origin);
   const double limit = kPlacedOff * std::max(1.0, 1e-3 * (wall.outer().reach() + spec.length));
   double placed = 0.0;
-  worsen(placed, misplaced(part.start, false, {{1.0, 1.0, 1.0}, {0.0, 0.0, start}}, stop));
+  worsen(placed, misplaced(part.start, false, {{1.0, 1.0, 1.0}, {0.0, 0.0, start}}));
   worsen(placed,
-         misplaced(part.finish, true, {{1.0, -1.0, -1.0}, {0.0, 0.0, spec.length - start}}, stop));
+         misplaced(part.finish, true, {{1.0, -1.0, -1.0}, {0.0, 0.0, spec.length - start}}));
   out.push_back({"placed", placed, limit, "mm"});
   if (!part.cutouts.empty())
     for (auto& check : cutout::verify(part.cutouts, cutout_ground(spec, part)))
       out.push_back(std::move(check));
   for (auto& check : verify_square_holes(spec, part)) out.push_back(std::move(check));
-  const double volume = volume_of(wall, part.finish, stop) - volume_of(wall, part.start, stop) -
+  for (auto& check : verify_texts(part)) out.push_back(std::move(check));
+  const double volume = volume_of(wall, part.finish) - volume_of(wall, part.start) -
                         cutout::volume_by_rings(part.cutouts);
   out.push_back(
       {"volume", std::abs(part.lengths.volume - volume) / std::abs(volume), kVolumeOff, ""});

@@ -77,7 +77,7 @@ double end_volume(const section::Wall& wall, const bevel::TableSpec& spec,
 }
 
 double groove_volume(const section::Wall& wall, const bevel::TableSpec& spec,
-                     const bevel::SectionTable& table, const std::stop_token& stop) {
+                     const bevel::SectionTable& table) {
   const auto cutters = joint::resolve(spec.partners);
   if (!cutters) return 0.0;
   std::vector<joint::PreparedCutter> partners;
@@ -100,7 +100,7 @@ double groove_volume(const section::Wall& wall, const bevel::TableSpec& spec,
   each_smooth_strip(surface, [&](std::size_t row, double from, double to) {
     const int pieces =
         std::max(1, static_cast<int>(std::ceil((to - from) * surface.width(row) / piece)));
-    for (int i = 0; i < pieces && !stop.stop_requested(); ++i)
+    for (int i = 0; i < pieces && !stopped(); ++i)
       each_place(surface, row, math::mixed(from, to, static_cast<double>(i) / pieces),
                  math::mixed(from, to, static_cast<double>(i + 1) / pieces), 3,
                  [&](const SectionSurface::Line& line, double weight) {

@@ -3,15 +3,15 @@
 import assert from 'node:assert/strict';
 import {decode} from '../cbor.mjs';
 import {answerFaults} from '../check.mjs';
-import {drawn, hasGenerator, sound} from '../generate.mjs';
+import {drawings, drawn, hasGenerator, sound} from '../generate.mjs';
 import {member, parseRaw, print} from '../raw.mjs';
 import {each} from '../service.mjs';
 
 // Requests drawn for each endpoint. An endpoint without a generator gets FEW, because they are near its examples, which are all requested too. With the
 // examples, 20 requests of the generators reach 661 members of answers; 60 reach 668. TUBECUT_SOUND gives another number to every endpoint:
 // ./dev soak requests takes 60.
-const SOUND = Number(process.env.TUBECUT_SOUND ?? 20);
-const FEW = Number(process.env.TUBECUT_SOUND ?? 4);
+const SOUND = Number(process.env.TUBECUT_SOUND ?? drawings(10, 20));
+const FEW = Number(process.env.TUBECUT_SOUND ?? drawings(2, 4));
 
 const same = (a, b) => {
   try {

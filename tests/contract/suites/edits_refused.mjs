@@ -2,13 +2,13 @@
 import fc from 'fast-check';
 import {problemFaults} from '../check.mjs';
 import {edits} from '../edits.mjs';
-import {hasGenerator, sound} from '../generate.mjs';
+import {drawings, hasGenerator, sound} from '../generate.mjs';
 import {each} from '../service.mjs';
 
-const BODIES = 60;     // sound requests to edit, each endpoint
-const FEW = 6;         // of an endpoint without a generator
-const EDITS = 3600;    // at most, each endpoint
-const IN_ALL = 5000;   // at least
+const BODIES = drawings(25, 60);      // sound requests to edit, each endpoint
+const FEW = drawings(3, 6);           // of an endpoint without a generator
+const EDITS = drawings(1200, 3600);   // at most, each endpoint
+const IN_ALL = drawings(1700, 5000);  // at least
 const KINDS = ['type', 'range', 'choice', 'count', 'missing', 'unknown', 'exclusive', 'root'];
 
 // Where a replica has less memory than the contract allows bodies, a longer one is refused before any field of it is read.

@@ -1,13 +1,13 @@
 // Bodies that are valid by the schema are answered, or refused with one of the endpoint's own codes; sound joints are answered.
 import fc from 'fast-check';
 import {answerFaults, problemFaults} from '../check.mjs';
-import {drawn, fromSchema, hasGenerator, runsOf, sound} from '../generate.mjs';
+import {drawings, drawn, fromSchema, hasGenerator, runsOf, sound} from '../generate.mjs';
 import {each} from '../service.mjs';
 
-const ANY = 800;      // bodies from only the schema, each endpoint
-const CROSSED = 600;  // sound joints with members of such
-const SOUND = 1100;   // sound joints
-const ENOUGH = 1000;  // of them answered
+const ANY = drawings(250, 800);      // bodies from only the schema, each endpoint
+const CROSSED = drawings(180, 600);  // sound joints with members of such
+const SOUND = drawings(330, 1100);   // sound joints
+const ENOUGH = SOUND / 1.1;          // of them answered
 const HALF = 0.5;     // of those made from examples
 const SEARCHED = 300;  // bodies, for a smaller one that shows the same fault
 const SEARCH_MS = 5000;

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "core/base/angle.hpp"
+#include "tests/support/cancelled.hpp"
 #include "tests/support/golden.hpp"
 
 namespace tubecut::bevel {
@@ -309,11 +310,10 @@ TEST(Hermite, Refusals) {
   auto uneven = profile;
   uneven.s[7] += 0.01;
   EXPECT_EQ(code(uneven, {.limit = 0.1, .transition = 10}), ErrorCode::sampling_not_uniform);
-  std::stop_source stop;
-  stop.request_stop();
-  EXPECT_EQ(hermite(profile, {.limit = 0.1, .transition = 10}, stop.get_token()).error().code(),
-            ErrorCode::cancelled);
   EXPECT_TRUE(hermite(profile, {.limit = 0.3, .transition = 20}));
+  const CancelledScope cancelled;
+  EXPECT_EQ(hermite(profile, {.limit = 0.1, .transition = 10}).error().code(),
+            ErrorCode::cancelled);
 }
 
 TEST(Envelope, Refusals) {
@@ -338,10 +338,8 @@ TEST(Envelope, Refusals) {
   EXPECT_EQ(code(profile, {.limits = {0.0, 0.1}}), ErrorCode::out_of_range);
   EXPECT_EQ(code(profile, {.limits = {0.1, std::nan("")}}), ErrorCode::out_of_range);
   EXPECT_EQ(code(profile, {.limits = limits, .highest = 0.99}), ErrorCode::out_of_range);
-  std::stop_source stop;
-  stop.request_stop();
-  EXPECT_EQ(envelope(profile, {.limits = limits}, stop.get_token()).error().code(),
-            ErrorCode::cancelled);
+  const CancelledScope cancelled;
+  EXPECT_EQ(envelope(profile, {.limits = limits}).error().code(), ErrorCode::cancelled);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "core/cutoff/verify.hpp"
 #include "tests/core/cutoff/machines.hpp"
+#include "tests/support/cancelled.hpp"
 
 namespace tubecut::cutoff {
 namespace {
@@ -103,9 +104,8 @@ TEST(Errors, BeyondTheGoldenFile) {
                            .rad_per_mm = 0.002};
             }),
             ErrorCode::unreachable_x);  // its feed ends at 19.46 mm, this cut at 25
-  std::stop_source source;
-  source.request_stop();
-  EXPECT_EQ(feed_curve(small_request(), source.get_token()).error().code(), ErrorCode::cancelled);
+  const CancelledScope cancelled;
+  EXPECT_EQ(feed_curve(small_request()).error().code(), ErrorCode::cancelled);
 }
 
 TEST(Table, ByPointsAndBySteps) {

@@ -63,7 +63,7 @@ class RandomJoints {
     for (;;) {
       const GrooveSpec spec = draw();
       const auto joint = joint_of(spec);
-      if (joint && survey(*joint, 0.0, {})) return spec;
+      if (joint && survey(*joint, 0.0)) return spec;
     }
   }
 

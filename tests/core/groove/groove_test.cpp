@@ -8,6 +8,7 @@
 
 #include "core/groove/groove_limits.hpp"
 #include "tests/core/groove/groove_cases.hpp"
+#include "tests/support/cancelled.hpp"
 
 namespace tubecut::groove {
 namespace {
@@ -129,9 +130,9 @@ TEST(GrooveErrors, TheLeastAreaIsTheLimit) {
 }
 
 TEST(GrooveErrors, Cancelled) {
-  std::stop_source stop;
-  stop.request_stop();
-  const auto found = groove(good(), stop.get_token());
+  const auto spec = good();
+  const CancelledScope cancelled;
+  const auto found = groove(spec);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code(), ErrorCode::cancelled);
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tests/core/groove/path_cases.hpp"
+#include "tests/support/cancelled.hpp"
 
 namespace tubecut::groove {
 namespace {
@@ -131,9 +132,9 @@ TEST(MillPathErrors, EachIsGiven) {
 }
 
 TEST(MillPathErrors, CancelledAtOnceAndInTheMiddle) {
-  std::stop_source stop;
-  stop.request_stop();
-  const auto found = mill_path(few("A_source_like"), stop.get_token());
+  const auto spec = few("A_source_like");
+  const CancelledScope cancelled;
+  const auto found = mill_path(spec);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code(), ErrorCode::cancelled);
 }

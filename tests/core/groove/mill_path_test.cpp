@@ -76,7 +76,7 @@ TEST_P(Paths, SweptFlankErrorAsSampledAndWithLinearAxes) {
     }
   ASSERT_EQ(dz.size(), 90U);
   const auto sampled = [&](const std::vector<Block>& blocks) {
-    return *swept(joint, cone, spec.setup, blocks, Between::nothing, {}, {});
+    return *swept(joint, cone, spec.setup, blocks, Between::nothing, {});
   };
   // As in 8.5 and 8.6: exact poses at 1440 sections, increments linear between 90 optima, rulings
   // every degree.

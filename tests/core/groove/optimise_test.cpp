@@ -8,6 +8,7 @@
 #include "core/groove/survey.hpp"
 #include "tests/core/groove/mill_cases.hpp"
 #include "tests/core/groove/nelder_mead.hpp"
+#include "tests/support/cancelled.hpp"
 
 namespace tubecut::groove {
 namespace {
@@ -39,7 +40,7 @@ class Benches {
   std::unique_ptr<Bench> draw() {
     auto out = std::make_unique<Bench>();
     out->joint = *joint_of(joints_.next());
-    const auto whole = survey(out->joint, 0.0, {});
+    const auto whole = survey(out->joint, 0.0);
     if (!whole) return nullptr;
     Mill mill{Angle::deg(joints_.uniform(8.0, 30.0)),
               out->joint.branch_radius * joints_.uniform(0.05, 0.25), 0.0};
@@ -124,7 +125,7 @@ TEST(Chebyshev, NotWorseThanARestartedSimplexAndAnnealing) {
     if (i >= annealings) continue;
     std::mt19937_64 random{unsigned(i)};
     const double from = clock();
-    const auto cooled = annealing(task, random, {});
+    const auto cooled = annealing(task, random);
     seconds[1] += clock() - from;
     if (!cooled) continue;
     ++annealed;
@@ -225,16 +226,15 @@ TEST(Annealing, IsRepeatableAndStops) {
   Benches benches{36};
   const auto bench = benches.next();
   std::mt19937_64 first{7}, second{7}, third{8};
-  const auto a = annealing(bench->task(), first, {}), b = annealing(bench->task(), second, {}),
-             c = annealing(bench->task(), third, {});
+  const auto a = annealing(bench->task(), first), b = annealing(bench->task(), second),
+             c = annealing(bench->task(), third);
   ASSERT_TRUE(a && b && c);
   EXPECT_EQ(a->by.dz, b->by.dz);
   EXPECT_EQ(a->by.db, b->by.db);
   EXPECT_NE(a->by.dz, c->by.dz);
   EXPECT_EQ(a->evaluations, 2401);
-  std::stop_source stop;
-  stop.request_stop();
-  const auto stopped = annealing(bench->task(), first, stop.get_token());
+  const CancelledScope cancelled;
+  const auto stopped = annealing(bench->task(), first);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error(), ErrorCode::cancelled);
 }
@@ -256,7 +256,7 @@ TEST(Annealing, CasesMatchThePublishedFigures) {
                       hold_case(name)};
       const Gap initial = *gap(*near, cone, task.start);
       std::mt19937_64 random{1};
-      const auto cooled = annealing(task, random, {});
+      const auto cooled = annealing(task, random);
       ASSERT_TRUE(cooled);
       EXPECT_LT(cooled->gap.largest, 0.6 * initial.largest);
       optimum += chebyshev(task, Bias::centred, initial)->gap.largest;

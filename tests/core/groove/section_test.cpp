@@ -6,6 +6,7 @@
 
 #include "core/groove/groove.hpp"
 #include "tests/core/groove/groove_cases.hpp"
+#include "tests/support/drawings.hpp"
 
 namespace tubecut::groove {
 namespace {
@@ -201,7 +202,7 @@ TEST(GrooveSections, AreaFromAReferenceHeightInverts) {
 
 TEST(GrooveSections, DerivativesAreThoseOfTheSections) {
   RandomJoints joints{13};
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < tubecut::testing::drawings(50, 200); ++i) {
     GrooveSpec spec = joints.next();
     spec.area_in = i % 2 == 0 ? AreaIn::axial : AreaIn::normal;
     const auto joint = joint_of(spec);

@@ -69,7 +69,7 @@ class GoldenSwept : public ::testing::TestWithParam<const char*> {
   [[nodiscard]] Swept of(std::span<const Block> motion, Between between = Between::nothing,
                          SweptPoints points = {}) const {
     return *swept(joint_case(name), Cone{mill_case(name)}, setup_case(name), motion, between,
-                  points, {});
+                  points);
   }
 };
 INSTANTIATE_TEST_SUITE_P(Cases, GoldenSwept, ::testing::ValuesIn(kCases));
@@ -238,7 +238,7 @@ TEST(Swept, SkipsNothingThatMatters) {
         const Cone cone{mill_case(name)};
         const SweptPoints points{.rulings = 60, .per_ruling = 5, .root_levels = 3};
         for (const Between between : {Between::linear, Between::nothing}) {
-          const Swept got = *swept(joint, cone, setup, motion, between, points, {});
+          const Swept got = *swept(joint, cone, setup, motion, between, points);
           const Swept want = FullCheck{joint, cone, setup, motion, between}.run(points);
           const std::string what =
               std::string(name) + " " + std::to_string(count) + " " + std::to_string(noise);

@@ -12,6 +12,7 @@
 #include "core/joint/contour.hpp"
 #include "core/joint/nearness.hpp"
 #include "tests/core/joint/published.hpp"
+#include "tests/support/cancelled.hpp"
 #include "tests/support/ray_caster.hpp"
 
 namespace tubecut::joint {
@@ -304,9 +305,8 @@ TEST(Nearness, ACrowdIsRefused) {
   const auto nodes = solve(spec);
   ASSERT_FALSE(nodes);
   EXPECT_EQ(nodes.error().code(), ErrorCode::wrong_count);
-  std::stop_source stop;
-  stop.request_stop();
-  EXPECT_EQ(solve(spec, stop.get_token()).error().code(), ErrorCode::cancelled);
+  const CancelledScope cancelled;
+  EXPECT_EQ(solve(spec).error().code(), ErrorCode::cancelled);
 }
 
 double value(const std::vector<Check>& checks, const std::string& name) {

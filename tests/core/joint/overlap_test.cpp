@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <random>
 
+#include "tests/support/cancelled.hpp"
+
 namespace tubecut::joint {
 namespace {
 
@@ -210,11 +212,10 @@ TEST(Overlap, ReportsAtMostTheLimitOfPairs) {
 TEST(Overlap, LooksAtNoMorePairsThanItMay) { expect_one_too_many(1415, kMostNearPairs); }
 
 TEST(Overlap, StopsOnRequest) {
-  std::stop_source stop;
-  stop.request_stop();
   const auto spec = k_joint(0);
   const auto nodes = solve(spec);
-  EXPECT_EQ(overlaps(spec, *nodes, {}, stop.get_token()).error().code(), ErrorCode::cancelled);
+  const CancelledScope cancelled;
+  EXPECT_EQ(overlaps(spec, *nodes, {}).error().code(), ErrorCode::cancelled);
 }
 
 }  // namespace

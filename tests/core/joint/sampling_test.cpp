@@ -8,6 +8,7 @@
 #include "core/joint/length.hpp"
 #include "tests/core/joint/published.hpp"
 #include "tests/core/joint/random_nodes.hpp"
+#include "tests/support/cancelled.hpp"
 
 namespace tubecut::joint {
 namespace {
@@ -141,9 +142,8 @@ TEST(Sampling, Errors) {
   EXPECT_EQ(sample(*contour, {}).error().code(), ErrorCode::out_of_range);
   EXPECT_EQ(sample(*contour, {.tolerance = Tolerance{0.0}}).error().code(),
             ErrorCode::out_of_range);
-  std::stop_source stop;
-  stop.request_stop();
-  EXPECT_EQ(sample(*contour, {.tolerance = Tolerance{0.1}}, {}, stop.get_token()).error().code(),
+  const CancelledScope cancelled;
+  EXPECT_EQ(sample(*contour, {.tolerance = Tolerance{0.1}}, {}).error().code(),
             ErrorCode::cancelled);
 }
 

@@ -51,7 +51,7 @@ Found find(const NodeSpec& spec, std::size_t a, std::size_t b) {
   const auto all = overlaps(spec, *nodes);
   EXPECT_TRUE(all);
   Found out{detail::shared_metal(detail::finished(spec, *nodes, a, {}),
-                                 detail::finished(spec, *nodes, b, {}), {})};
+                                 detail::finished(spec, *nodes, b, {}))};
   for (const auto& one : *all)
     if (one.a == a && one.b == b) {
       ++out.told;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tests/support/cancelled.hpp"
+
 namespace tubecut::math {
 namespace {
 
@@ -50,10 +52,8 @@ TEST(Remez, APolynomialIsItsOwnAnswer) {
 }
 
 TEST(Remez, StopsOnRequest) {
-  std::stop_source source;
-  source.request_stop();
-  const auto found =
-      relative_minimax(curve([](double t) { return 2.0 + t; }, 0.0, 1.0), 2, source.get_token());
+  const CancelledScope cancelled;
+  const auto found = relative_minimax(curve([](double t) { return 2.0 + t; }, 0.0, 1.0), 2);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code(), ErrorCode::cancelled);
 }

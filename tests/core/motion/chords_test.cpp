@@ -65,12 +65,12 @@ CutPath closed(bool hole, int points, int first) {
 TEST(Chords, DepthsDoNotDependOnTheStart) {
   std::mt19937 random(2);
   for (const bool hole : {false, true}) {
-    const auto made = part_border(closed(hole, 500, 0), -1.0, {});
+    const auto made = part_border(closed(hole, 500, 0), -1.0);
     ASSERT_TRUE(made) << made.error().issues.front().member << made.error().issues.front().hint;
     const auto& border = *made;
     int inside = 0, outside = 0;
     for (const int first : {1, 63, 64, 250, 499}) {
-      const auto turned = part_border(closed(hole, 500, first), -1.0, {});
+      const auto turned = part_border(closed(hole, 500, first), -1.0);
       ASSERT_TRUE(turned) << first << turned.error().issues.front().member;
       for (int i = 0; i < 200; ++i) {
         const CutPoint p{.phi = hole ? of(random, -0.6, 0.6) : of(random, -4.0, 8.0),

@@ -212,7 +212,7 @@ class Claim : public ::testing::TestWithParam<Published> {};
 
 TEST_P(Claim, NaivePulses) {
   const Published& p = GetParam();
-  const auto job = prepare_cut(table1(p.points), {});
+  const auto job = prepare_cut(table1(p.points));
   ASSERT_TRUE(job);
   const auto naive = comparison(*job).naive;
   const std::array<std::size_t, 3> axes{4, 1, 2};
@@ -326,9 +326,9 @@ TEST(Golden, NaivePeaksInOtherPeriods) {
        {std::tuple{0, 610, 6095}, std::tuple{10, 112, 1124}, std::tuple{20, 62, 616}}) {
     ScheduleSpec spec = table1(points);
     spec.machine.period = 0.001;
-    EXPECT_EQ(comparison(*prepare_cut(spec, {})).naive.axes[4].peak, at_1ms);
+    EXPECT_EQ(comparison(*prepare_cut(spec)).naive.axes[4].peak, at_1ms);
     spec.machine.period = 0.010;
-    EXPECT_EQ(comparison(*prepare_cut(spec, {})).naive.axes[4].peak, at_10ms);
+    EXPECT_EQ(comparison(*prepare_cut(spec)).naive.axes[4].peak, at_10ms);
   }
 }
 
@@ -338,7 +338,7 @@ TEST(Golden, OtherSignOfSigma) {
        {std::tuple{0, 5043}, std::tuple{10, 993}, std::tuple{20, 549}}) {
     ScheduleSpec spec = table1(points);
     spec.machine.b_positive = BPositive::outer_edge_into_part;
-    EXPECT_EQ(comparison(*prepare_cut(spec, {})).naive.axes[1].peak, peak);
+    EXPECT_EQ(comparison(*prepare_cut(spec)).naive.axes[1].peak, peak);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "core/motion/replay/replay.hpp"
 #include "tests/core/motion/jobs.hpp"
 #include "tests/core/motion/random_jobs.hpp"
+#include "tests/support/cancelled.hpp"
 
 namespace tubecut::motion::testing {
 namespace {
@@ -124,9 +125,9 @@ TEST(Laws, ATableOfOneSpeedIsTheNumber) {
 }
 
 TEST(Laws, CancelledIsCancelled) {
-  std::stop_source source;
-  source.request_stop();
-  const auto s = schedule(table1(0), source.get_token());
+  const auto spec = table1(0);
+  const CancelledScope cancelled;
+  const auto s = schedule(spec);
   ASSERT_FALSE(s);
   EXPECT_EQ(s.error().code(), ErrorCode::cancelled);
 }
@@ -146,7 +147,8 @@ TEST(Laws, AStopAtAnyMomentIsCancelled) {
       std::this_thread::sleep_for(whole * trial / 200);
       source.request_stop();
     });
-    const auto s = schedule(spec, source.get_token());
+    const StopScope scope(source.get_token());
+    const auto s = schedule(spec);
     if (s) continue;
     EXPECT_EQ(s.error().code(), ErrorCode::cancelled);
     ++cancelled;

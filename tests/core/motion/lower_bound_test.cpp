@@ -185,10 +185,10 @@ TEST(LowerBound, IsReachedWithoutJerkToOnePercent) {
   int bound = 0;
   for (int seed = 1; seed <= jobs; ++seed) {
     const ScheduleSpec spec = bound_job(static_cast<std::uint64_t>(seed));
-    const auto job = prepare_cut(spec, {});
+    const auto job = prepare_cut(spec);
     ASSERT_TRUE(job) << seed;
     const Course& course = job->course;
-    const auto made = plan(course, {.jerk = false}, {});
+    const auto made = plan(course, {.jerk = false});
     ASSERT_TRUE(made) << seed;
     EXPECT_LE(made->uses.worst(), 1.0 + 1e-8) << seed;
     EXPECT_EQ(made->stretch, 1.0) << seed;
@@ -258,7 +258,7 @@ TEST(LowerBound, WaveWhoseTermsCancel) {
 TEST(LowerBound, WaveWithJerkBeatsMagnitudesWithout) {
   for (const double per_s : {20.0, 100.0, 500.0}) {
     const ScheduleSpec spec = wave(per_s);
-    const auto job = prepare_cut(spec, {});
+    const auto job = prepare_cut(spec);
     ASSERT_TRUE(job);
     const PathLimits& limits = job->course.limits;
     const Conditions base = without_jerk(limits);

@@ -88,7 +88,7 @@ TEST(Optimum, OfTheMagnitudesIsALinearProgramme) {
   int solved = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const ScheduleSpec spec = short_job(seed);
-    const auto job = prepare_cut(spec, {});
+    const auto job = prepare_cut(spec);
     ASSERT_TRUE(job) << seed;
     const PathLimits& limits = job->course.limits;
     const std::vector<double> x = LargestVector(without_jerk(limits), limits.d).solve();

@@ -12,6 +12,7 @@
 #include "core/motion/replay/replay.hpp"
 #include "tests/core/motion/jobs.hpp"
 #include "tests/core/motion/random_jobs.hpp"
+#include "tests/support/drawings.hpp"
 
 namespace tubecut::motion::testing {
 namespace {
@@ -132,7 +133,7 @@ TEST(SectionAxes, FollowClosedFormsInACorner) {
   ScheduleSpec spec = square_cut(kSquare, 30.0);
   spec.machine.axes[0] = turning(90, 1e5);
   for (std::size_t a = 1; a < 4; ++a) spec.machine.axes[a].a_max = 1e6;
-  const auto job = prepare_cut(spec, {});
+  const auto job = prepare_cut(spec);
   ASSERT_TRUE(job);
   const Schedule s = planned(spec);
   // Smoothing shortens the corner by 1/120, and interval bounds keep 0.1 %.
@@ -392,12 +393,13 @@ double farthest_off(const ScheduleSpec& spec, const Schedule& s) {
   return most;
 }
 
-/// 60 drawn schedules, replayed: every invariant, and the torch stays within 0.05 mm of its
+/// Drawn schedules, replayed: every invariant, and the torch stays within 0.05 mm of its
 /// distance around the corners.
 TEST(DrawnSections, KeepTheStandoffAndEveryLimit) {
+  const int jobs = tubecut::testing::drawings(15, 60);
   int cut = 0;
   double farthest = 0.0;
-  for (std::uint64_t seed = 1; cut < 60 && seed < 100; ++seed) {
+  for (std::uint64_t seed = 1; cut < jobs && seed < 100; ++seed) {
     const ScheduleSpec spec = drawn_job(seed);
     const auto s = schedule(spec);
     if (!s && s.error().code() == ErrorCode::lead_blocked) continue;  // no room for this lead
@@ -411,7 +413,7 @@ TEST(DrawnSections, KeepTheStandoffAndEveryLimit) {
     farthest = std::max(farthest, off);
     EXPECT_LE(off, 0.05) << seed;
   }
-  EXPECT_EQ(cut, 60);
+  EXPECT_EQ(cut, jobs);
   RecordProperty("farthest_mm", std::to_string(farthest));
 }
 
@@ -457,7 +459,7 @@ TEST(SectionStart, PrefersFlats) {
     spec.motion.lead = Lead{.radius = 3.0};
     const Schedule s = planned(spec);
     EXPECT_TRUE(broken(spec, s).empty());
-    const auto job = prepare_cut(spec, {});
+    const auto job = prepare_cut(spec);
     ASSERT_TRUE(job);
     const auto start = coordinates_of(job->program, job->program.cut_first);
     EXPECT_NEAR(std::remainder(start[0], 0.25 * kTwoPi), 0.0, 1e-9);

@@ -28,9 +28,9 @@ TEST(SpeedTables, AreKeptAtEverySample) {
   c.wall = 5.0;
   const SpeedTable table{{{5.0, 30.0}, {8.0, 15.0}, {12.0, 9.0}, {30.0, 4.0}}};
   spec.motion.speed = table;
-  const auto job = prepare_cut(spec, {});
+  const auto job = prepare_cut(spec);
   ASSERT_TRUE(job);
-  const auto timed = plan(job->course, {}, {});
+  const auto timed = plan(job->course, {});
   ASSERT_TRUE(timed);
   const auto lengths = job->program.lengths();
   const auto speed_at = [&](double u) {

@@ -524,7 +524,7 @@ TEST(SectionNode, SharedMetalIsWhereBothHaveIt) {
     if (!all->empty()) {
       ++found;
       const auto at = detail::shared_metal(detail::finished(spec, *nodes, 0, {}),
-                                           detail::finished(spec, *nodes, 1, {}), {});
+                                           detail::finished(spec, *nodes, 1, {}));
       ASSERT_TRUE(at);
       EXPECT_TRUE(in_metal(a, *at, 0.004) && in_metal(b, *at, 0.004));
       const Vector3d deep = (*all)[0].at;

@@ -47,7 +47,7 @@ void expect_rows(const GoldenEnd& end) {
   }
   const auto& rows = testing::at(*end.json, "rows");
   const auto s = testing::numbers(rows, "s");
-  const auto g = detail::set_up(end.section, spec, {});
+  const auto g = detail::set_up(end.section, spec);
   ASSERT_TRUE(g);
   const auto made = detail::section_rows(*g, s);
   ASSERT_TRUE(made);
@@ -191,7 +191,7 @@ TEST(SectionTable, AnglesAreContinuousAtSeams) {
     if (end.name == "shs_open") continue;
     SCOPED_TRACE(end.name);
     const auto spec = spec_of(end.partners);
-    const auto g = detail::set_up(end.section, spec, {});
+    const auto g = detail::set_up(end.section, spec);
     ASSERT_TRUE(g);
     auto seams = g->wall.outer().seams();
     for (const double s : g->wall.bore().seams())

@@ -3,11 +3,12 @@
 #include <utility>
 
 #include "api/api.hpp"
+#include "api/formats/drawing/order/matrix_code.hpp"
 
 namespace tubecut::api {
 namespace {
 
-constexpr double kHead = 15.0, kBadge = 44.0;
+constexpr double kHead = 15.0, kBadge = 44.0, kCode = kHead;
 constexpr Stroke kFrame{.width = 0.5};
 
 struct Look {
@@ -28,12 +29,14 @@ OrderSheets::OrderSheets(std::string title, std::string part, const Caption& cap
 }
 
 void OrderSheets::begin() {
-  auto& canvas = sheets_.emplace_back(kWidth, kHeight, caption_.stop);
+  auto& canvas = sheets_.emplace_back(kWidth, kHeight);
   const double high = kHeight - kBorder, right = kWidth - kBorder;
   canvas.rectangle({kBorder, kBorder}, {right, high}, kFrame);
   canvas.text({kBorder + kPad, high - 5.0}, title_, {.height = 2.8, .color = "#566370"});
   canvas.label({kBorder + kPad, high - 12.0}, part_, {.height = 6.0, .bold = true},
-               right - kBorder - kBadge - 3.0 * kPad);
+               right - kBorder - kBadge - kCode - 3.0 * kPad);
+  draw_matrix_code(canvas, {right - kBadge - kCode - 1.5, high - kHead}, kCode,
+                   part_ + "\n" + caption_.result_sha256);
   const auto look = look_of(caption_.verdict.status);
   canvas.rectangle({right - kBadge, high - kHead}, {right, high},
                    {.color = look.color, .width = 0.2, .fill = look.color});

@@ -9,7 +9,8 @@
 namespace tubecut::api {
 
 /// Sheets of A4 upright that take blocks from top to bottom; a block that does not fit goes to the
-/// next sheet. Each has the same head: title, part, verdict; and a foot: the job, sheet of sheets.
+/// next sheet. Each has the same head: title, part, a DataMatrix of the part and of the result's
+/// hash in two lines, verdict; and a foot: the job, sheet of sheets.
 class OrderSheets {
  public:
   static constexpr double kWidth = 210.0, kHeight = 297.0, kBorder = 10.0;

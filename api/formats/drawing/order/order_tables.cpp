@@ -6,6 +6,7 @@
 #include "api/formats/drawing/order/order_blocks.hpp"
 #include "api/formats/drawing/order/order_cutouts.hpp"
 #include "api/formats/drawing/part_edges.hpp"
+#include "api/formats/drawing/part_marks.hpp"
 #include "api/formats/numbers.hpp"
 #include "api/wire/part_names.hpp"
 #include "api/wire/words.hpp"
@@ -214,7 +215,9 @@ std::string words(const part::PartSpec& spec, const part::Part& part, const part
   switch (step.what) {
     case part::Step::What::mark: {
       const auto& mark = part.marks[step.index];
-      const auto what = mark.kind == part::Mark::Kind::datum_line ? "the datum line" : mark.text;
+      const auto what = mark.kind == part::Mark::Kind::datum_line ? "the datum line"
+                        : mark.lettering ? text_in_words(*mark.lettering) + ", its base line"
+                                         : mark.text;
       return "mark " + what + " at " + degrees(mark.phi) + "," + range;
     }
     case part::Step::What::hole: {

@@ -11,6 +11,7 @@
 #include "api/formats/drawing/order/order_sheets.hpp"
 #include "api/formats/drawing/order/order_tables.hpp"
 #include "api/formats/drawing/part_edges.hpp"
+#include "api/formats/drawing/part_marks.hpp"
 #include "api/formats/numbers.hpp"
 #include "core/base/angle.hpp"
 
@@ -199,6 +200,12 @@ std::string cutout_step(const part::SectionPart& part, const part::Step& step) {
          ", its middle " + mm(one.z) + " from the start's long point";
 }
 
+std::string text_step(const cutout::Lettering& text) {
+  return "mark " + text_in_words(text) + ", on face " + std::to_string(text.face) +
+         (text.offset == 0.0 ? "" : ", " + mm(text.offset) + " off its middle") + ", from " +
+         mm(text.z) + " on";
+}
+
 /// The operations on the blank, in their order.
 void draw_section_steps(OrderSheets& sheets, const part::SectionPartSpec& spec,
                         const part::SectionPart& part) {
@@ -212,9 +219,10 @@ void draw_section_steps(OrderSheets& sheets, const part::SectionPartSpec& spec,
     } else if (step.what == part::Step::What::mark) {
       const auto& mark = part.marks[step.index];
       const bool line = mark.kind == part::Mark::Kind::datum_line;
-      steps.push_back(line ? "scribe the datum line on the middle of face 1"
-                           : "mark " + mark.text + " on the middle of face 1, " + mm(mark.z_from) +
-                                 " from the start's long point");
+      steps.push_back(mark.lettering ? text_step(*mark.lettering)
+                      : line         ? "scribe the datum line on the middle of face 1"
+                                     : "mark " + mark.text + " on the middle of face 1, " +
+                                   mm(mark.z_from) + " from the start's long point");
     } else if (step.what == part::Step::What::cutout) {
       steps.push_back(cutout_step(part, step));
     } else {

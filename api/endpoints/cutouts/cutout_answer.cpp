@@ -1,4 +1,4 @@
-#include "api/endpoints/cutout_answer.hpp"
+#include "api/endpoints/cutouts/cutout_answer.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "api/endpoints/square_hole.hpp"
+#include "api/endpoints/cutouts/square_hole.hpp"
 
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/section_target.hpp"

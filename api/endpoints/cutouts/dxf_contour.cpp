@@ -1,4 +1,4 @@
-#include "api/endpoints/dxf_contour.hpp"
+#include "api/endpoints/cutouts/dxf_contour.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -298,7 +298,7 @@ Result<cutout::Contour> read_dxf_contour(std::string_view text) {
     way.to *= unit;
   }
   TRY(ways, joined(std::move(ways)));
-  cutout::Contour out{.start = ways.front().from, .pieces = {}};
+  cutout::Contour out{.start = ways.front().from, .pieces = {}, .of_file = true};
   for (const auto& way : ways) out.pieces.push_back(piece_of(way));
   return out;
 }

@@ -1,4 +1,4 @@
-#include "api/endpoints/cutout_codec.hpp"
+#include "api/endpoints/cutouts/cutout_codec.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -7,13 +7,14 @@
 #include <tuple>
 #include <utility>
 
-#include "api/endpoints/dxf_contour.hpp"
+#include "api/endpoints/cutouts/anchor_codec.hpp"
+#include "api/endpoints/cutouts/dxf_contour.hpp"
+#include "api/endpoints/cutouts/text_codec.hpp"
 #include "api/endpoints/section_bevel_table.hpp"
 #include "api/limits.hpp"
 #include "api/wire/bevel_names.hpp"
 #include "api/wire/cutout_names.hpp"
 #include "api/wire/problem.hpp"
-#include "core/cutout/flats.hpp"
 #include "core/cutout/rows.hpp"
 
 namespace tubecut::api {
@@ -37,12 +38,8 @@ struct Common {
   bool sure;                        // the request's tube was understood
   bool on_each_face = false;        // within a pattern over faces
 
-  /// Returns the radius of the circle that is as long as the girth.
-  [[nodiscard]] double radius() const {
-    const double radius =
-        section != nullptr ? section->outer().girth() / kTwoPi : once.target.outer_radius;
-    return std::max(radius, 1.0);
-  }
+  [[nodiscard]] AnchorTube tube() const { return {once.target.outer_radius, section, sure}; }
+  [[nodiscard]] double radius() const { return tube().radius(); }
 };
 
 constexpr std::string_view kRoundTube = "requires a round target; ";
@@ -155,70 +152,6 @@ void decode_shape(Reader& in, const Common& common, cutout::Lay lay, cutout::Spe
   }
 }
 
-/// A place round a tube whose kind is unknown, because its own fields were refused: one of those
-/// that the contract has.
-void decode_anywhere(Reader& in) {
-  const auto which = in.exactly_one({"phi_deg", "girth_mm", "face"});
-  if (which && *which == 2) {
-    in.integer("face", 1, 4);
-    in.optional_number("offset_mm");
-    return;
-  }
-  refuse_fields(in, {"offset_mm"}, "goes with face");
-  if (which) in.number(*which == 0 ? "phi_deg" : "girth_mm");
-}
-
-/// The other places are left unread, because a field of the other kind of tube is refused.
-void note_places(Reader& in) {
-  in.note("face");
-  in.note("offset_mm");
-  in.note("girth_mm");
-}
-
-void decode_on_section(Reader& in, const Common& common, cutout::Anchor& out) {
-  refuse_fields(in, {"phi_deg"}, std::string(kRoundTube) + "give face and offset_mm, or girth_mm");
-  if (in.has("phi_deg")) return note_places(in);
-  const auto which = in.exactly_one({"face", "girth_mm"});
-  if (which && *which == 1) {
-    refuse_fields(in, {"offset_mm"}, "goes with face");
-    out.phi = in.number("girth_mm", kPlace) / common.radius();
-    return;
-  }
-  if (!which) return in.note("offset_mm");
-  out.face = in.integer("face", 1, 4);
-  const bool known = in.understood("face");
-  const auto half =
-      known ? cutout::half_flat(section::Wall(*common.section), out.face) : kPlace.max;
-  out.offset = in.number("offset_mm", {.min = -half, .max = half}, 0.0);
-}
-
-cutout::Anchor decode_anchor(Reader& in, const Common& common) {
-  using Anchor = cutout::Anchor;
-  Anchor out{.z = in.number("z_mm", kOffset)};
-  out.from = in.choice("from", Anchor::From::start);
-  out.zero = in.choice("z_zero", Anchor::Zero::work_point);
-  out.opposite = in.flag("opposite", false);
-  if (!common.sure) {
-    decode_anywhere(in);
-    return out;
-  }
-  if (common.section != nullptr) {
-    decode_on_section(in, common, out);
-    return out;
-  }
-  if (in.has("face")) {
-    in.note("offset_mm");
-    refuse_fields(in, {"face"}, "a round tube has no faces; give phi_deg or girth_mm");
-    return out;
-  }
-  in.note("face");
-  refuse_fields(in, {"offset_mm"}, "goes with face, which a round tube does not have");
-  if (const auto which = in.exactly_one({"phi_deg", "girth_mm"}))
-    out.phi = *which == 0 ? in.angle("phi_deg", kAnyAngleDeg).rad()
-                          : in.number("girth_mm", kPlace) / common.radius();
-  return out;
-}
-
 /// A step round the tube, by its angle or its way on the outside; on a section, by its way.
 std::optional<double> decode_turn(Reader& in, const Common& common, bool required) {
   in.note("pitch_round_mm");
@@ -270,7 +203,14 @@ cutout::Grid decode_grid(Reader& in, const Common& common) {
 cutout::Linear decode_linear(Reader& in, const Common& common) {
   const int count = in.integer("count", 1, 10 * kMost);
   const auto pitch = in.optional_number("pitch_mm", kPlace);
-  const auto turn = decode_turn(in, common, !pitch);
+  const auto turn = decode_turn(in, common, false);
+  if (!in.has("pitch_mm") && !in.has("pitch_deg") && !in.has("pitch_round_mm"))
+    in.issue(
+        {.code = ErrorCode::missing_field,
+         .pointer = "pitch_mm",
+         .hint = common.section == nullptr
+                     ? "give a step: pitch_mm along, pitch_deg or pitch_round_mm round the tube"
+                     : "give a step: pitch_mm along, pitch_round_mm round the tube"});
   if (pitch && *pitch == 0.0 && !turn)
     in.issue({.code = ErrorCode::out_of_range,
               .pointer = "pitch_mm",
@@ -345,12 +285,7 @@ cutout::Pattern decode_pattern(Reader& in, const Common& common) {
 }
 
 cutout::Spec decode_cutout(Reader& in, const Common& common, std::set<std::string>& ids) {
-  cutout::Spec out{.id = in.text("id")};
-  if (in.understood("id") && !ids.insert(out.id).second)
-    in.issue({.code = ErrorCode::duplicate_id,
-              .pointer = "id",
-              .got = Json{out.id},
-              .hint = "another cut-out has it"});
+  cutout::Spec out{.id = decode_own_id(in, ids, "another cut-out has it")};
   out.wall = in.choice("wall", cutout::Wall::normal);
   out.tilt = common.preset == Preset::tube_laser ? decode_no_tilt(in)
                                                  : in.choice("tilt", bevel::Tilt::axial);
@@ -359,7 +294,7 @@ cutout::Spec decode_cutout(Reader& in, const Common& common, std::set<std::strin
     decode_shape(s, common, lay, out);
     return 0;
   });
-  out.at = in.object("at", [&](Reader& a) { return decode_anchor(a, common); });
+  out.at = in.object("at", [&](Reader& a) { return decode_anchor(a, common.tube()); });
   in.note("pattern");
   if (in.has("pattern"))
     out.pattern = in.object("pattern", [&](Reader& p) { return decode_pattern(p, common); });
@@ -374,12 +309,13 @@ part::CutoutSpecs decode_cutouts(Reader& in, Preset preset, const bevel::TableSp
       .kerf = once.kerf,
       .tolerance = once.sampling.tolerance ? once.sampling.tolerance->value : kTolerance,
       .most_lean = once.torch.max.rad()};
+  const Common common{preset, once, section, sure};
+  out.texts = decode_texts(in, common.tube());
   in.note("cutouts");
   if (!in.has("cutouts")) return out;
   std::set<std::string> ids;
-  out.all = in.array("cutouts", {.min = 0, .max = cutout::kMostCutouts}, [&](Reader& c) {
-    return decode_cutout(c, {preset, once, section, sure}, ids);
-  });
+  out.all = in.array("cutouts", {.min = 0, .max = cutout::kMostCutouts},
+                     [&](Reader& c) { return decode_cutout(c, common, ids); });
   return out;
 }
 
