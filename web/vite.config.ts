@@ -2,7 +2,7 @@ import {readFileSync} from 'node:fs';
 import {fileURLToPath} from 'node:url';
 import {defineConfig, type Plugin} from 'vite';
 import {html} from './glossary/markdown';
-import {words} from './glossary/words';
+import {chineseWords, words} from './glossary/words';
 
 const page = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 
@@ -15,11 +15,15 @@ const glossary: Plugin = {
   transformIndexHtml: (text) => text.replace('<!-- docs/glossary.md -->', () => html(readFileSync(page('../docs/glossary.md'), 'utf8'))),
 };
 
-/** The same page as data, for labels and hints. */
+/** The same page as data, for labels and hints; the Chinese part of it is a module of its own. */
+const read = {'virtual:words': words, 'virtual:words-zh': chineseWords};
 const dictionary: Plugin = {
   name: 'words',
-  resolveId: (id) => (id === 'virtual:words' ? '\0words' : undefined),
-  load: (id) => (id === '\0words' ? `export default ${JSON.stringify(words(readFileSync(page('../docs/glossary.md'), 'utf8')))}` : undefined),
+  resolveId: (id) => (Object.hasOwn(read, id) ? `\0${id}` : undefined),
+  load: (id) => {
+    const of = read[id.slice(1) as keyof typeof read];
+    return id.startsWith('\0') && of ? `export default ${JSON.stringify(of(readFileSync(page('../docs/glossary.md'), 'utf8')))}` : undefined;
+  },
 };
 
 export default defineConfig({

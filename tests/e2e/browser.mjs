@@ -19,8 +19,8 @@ function withoutWebGl() {
 /** A page that draws no 3D. */
 export const openPlain = (browser, origin, hash, given = {}) => open(browser, origin, hash, {...given, draws: false});
 
-export async function open(browser, origin, hash = firstJob, {width = 1280, height = 800, theme = 'light', at = '/', draws = true} = {}) {
-  const context = await browser.newContext({viewport: {width, height}, colorScheme: theme, acceptDownloads: true, reducedMotion: 'reduce'});
+export async function open(browser, origin, hash = firstJob, {width = 1280, height = 800, theme = 'light', at = '/', draws = true, locale = 'en-US'} = {}) {
+  const context = await browser.newContext({viewport: {width, height}, colorScheme: theme, acceptDownloads: true, reducedMotion: 'reduce', locale});
   const page = await context.newPage();
   page.faults = [];
   page.strangers = [];

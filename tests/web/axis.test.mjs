@@ -3,7 +3,7 @@ import {strict as assert} from 'node:assert';
 import {test} from 'node:test';
 import {load} from './load.mjs';
 
-const {axesOf, over, shownAt, spanOf, warned} = await load('src/pictures/axis.ts');
+const {axesOf, over, shownAt, spanOf, usualAxis, warned} = await load('src/pictures/axis.ts');
 const turn = 720;
 const chart = (id, more = {}) => ({
   id, title: id, link: 'cut', unit: 'mm', x: {name: 'φ', unit: '°', values: [0, 90, 180, 270]}, period: 360, turn,
@@ -21,6 +21,19 @@ test('a turn is measured by its length or its angle, there and back', () => {
   assert.deepEqual(over(long, '°'), given);
   assert.equal(over(given, '°'), given);
   assert.deepEqual(long.series, given.series);
+});
+
+test('a cut over time is also over its angle and its length, where it never turns back', () => {
+  const timed = chart('tip', {x: {name: 'time', unit: 's', values: [0, 1, 2, 3]}, period: undefined, turn: undefined, pace: 0.004, round: {phi: [10, 10, 190, 370], perDegree: 2},
+    marks: [{x: 1.5, tone: 'mark', text: 'turn'}, {x: 9, tone: 'mark', text: 'later'}], bands: [{from: 0, to: 3, tone: 'bad', text: 'slow'}]});
+  assert.deepEqual([axesOf(timed), usualAxis([timed]), usualAxis([chart('height')])], [['mm', '°', 's'], 's', 'mm']);
+  const angle = over(timed, '°');
+  assert.deepEqual([angle.x.name, angle.x.unit, angle.x.values], ['φ', '°', [10, 10, 190, 370]]);
+  assert.deepEqual([angle.marks.map(({x}) => x), angle.bands[0].from, angle.bands[0].to], [[100, 370], 10, 370]);
+  assert.deepEqual(over(timed, 'mm').x.values, [20, 20, 380, 740]);
+  assert.equal(over(timed, 's'), timed);
+  const turned = chart('height');
+  assert.equal(over(turned, 's'), turned, 'a turn without a speed has no time');
 });
 
 test('a warning lies where its text says, in the measure of the chart', () => {

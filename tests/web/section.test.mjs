@@ -54,6 +54,7 @@ test('files and options that only round tubes have are not offered', () => {
   assert.deepEqual(printable(formats, false).map(({media, views}) => [media, views]),
     ['text/csv', 'image/svg+xml', 'text/x-gcode', 'image/vnd.dxf'].map((media) => [media, ['chart']]));
   assert.deepEqual(printable(formats, false)[2].options.map(({name}) => name), ['lead_mm', 'pivot_length_mm']);
+  assert.deepEqual(printable(formats, false, true)[2].options.map(({name}) => name), ['lead_mm', 'marks', 'pivot_length_mm']);
   for (const type of ['application/x-dstv', 'model/step']) assert.ok(printable(formats, false, true).some(({media}) => media === type), type);
 });
 

@@ -1,4 +1,5 @@
 import {isRow, type Row} from './json';
+import {later} from './language';
 
 /** The whole state of the page in its hash, so that a link is a job:
  *  `#/bevel-tables/source-000-table-1?view=before`, or `#/bevel-tables/~.<deflated body>` once edited. */
@@ -50,16 +51,16 @@ export const tooLong = (hash: string) => hash.includes(`/${local}`);
 export async function read(hash: string): Promise<Place | {damage: string} | null> {
   if (!hash.startsWith('#/') || hash === '#/') return null;
   const match = /^#\/([a-z-]+)(?:\/([^?]*))?(?:\?(.*))?$/.exec(hash);
-  if (!match) return {damage: 'The link names an unknown endpoint.'};
+  if (!match) return {damage: later('The link names an unknown endpoint.')};
   const place: Place = {endpoint: match[1] as string, view: Object.fromEntries(new URLSearchParams(match[3] ?? ''))};
   try {
     const job = decodeURIComponent(match[2] ?? '');
     if (job.startsWith(local)) return {...place, draft: job.slice(1)};
-    if (job === mark) return {damage: 'The job was too long for a link: its request can be copied as JSON instead.'};
+    if (job === mark) return {damage: later('The job was too long for a link: its request can be copied as JSON instead.')};
     if (job.startsWith(mark)) return {...place, body: await unpacked(job.slice(1))};
     return job ? {...place, example: job} : place;
   } catch {
-    return {damage: 'A part of it is missing or was changed on the way, so the job in it cannot be read.'};
+    return {damage: later('A part of it is missing or was changed on the way, so the job in it cannot be read.')};
   }
 }
 

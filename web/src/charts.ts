@@ -1,10 +1,12 @@
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import {colour, partnerColour} from './dom';
+import {t} from './language';
 import {listen, point, pointed} from './links';
 import type {Chart} from './picture';
 import {number, ticks, withUnit} from './words';
 
+const face = 'Inter, system-ui, "PingFang SC", "Microsoft YaHei", "Noto Sans CJK SC", sans-serif';
 const left = 56,
   right = 12,
   named = 16, // the x axis' name
@@ -95,7 +97,7 @@ export class Plot {
       stroke: () => colour('ink-soft'),
       grid: {stroke: () => colour('grid'), width: 1},
       ticks: {show: false},
-      font: '11px Inter, system-ui, sans-serif',
+      font: `11px ${face}`,
     };
     return {
       ...this.size(),
@@ -113,7 +115,7 @@ export class Plot {
           gap: 2,
           labelGap: 0,
           ...quarters(chart),
-          label: [chart.x.name, chart.x.unit].filter(Boolean).join(', '),
+          label: [t(chart.x.name), t(chart.x.unit)].filter(Boolean).join(', '),
           labelSize: named,
           labelFont: axis.font,
           values: (_, v) => ticks(v),
@@ -217,7 +219,7 @@ export class Plot {
     ctx.textBaseline = 'alphabetic';
     ctx.strokeStyle = colour('ink-soft');
     ctx.fillStyle = colour('ink-soft');
-    ctx.font = `${11 * devicePixelRatio}px Inter, system-ui, sans-serif`;
+    ctx.font = `${11 * devicePixelRatio}px ${face}`;
     ctx.setLineDash([3 * devicePixelRatio, 3 * devicePixelRatio]);
     for (const line of this.chart.wrap?.lines ?? []) {
       const at = u.valToPos(line.x, 'x', true);
@@ -253,7 +255,7 @@ export class Plot {
         ctx.fill();
       }
     }
-    ctx.font = `${11 * scale}px Inter, system-ui, sans-serif`;
+    ctx.font = `${11 * scale}px ${face}`;
     if (lettered(this.chart)) this.letter(u);
     ctx.setLineDash([6 * scale, 4 * scale]);
     for (const limit of this.chart.limits ?? []) {
@@ -342,14 +344,19 @@ export function walk({link, x}: Chart, event: KeyboardEvent, zoom: (by: number) 
 
 /** Returns the text alternative of a chart. */
 export const described = ({title, unit, x, series}: Chart) =>
-  `${title}: ${series.map((s) => `${s.name} ${spread(s.values, unit)}`).join(', ')} over ${x.name}; ${x.values.length} points. Left and right move the cursor, plus and minus zoom.`;
+  t('{title}: {lines} over {axis}; {n} points. Left and right move the cursor, plus and minus zoom.', {
+    title,
+    lines: series.map((s) => `${s.name} ${spread(s.values, unit)}`).join(t(', ')),
+    axis: t(x.name),
+    n: x.values.length,
+  });
 
 /** "from 18.7 to 72.6°", for those who do not see it. */
 function spread(values: (number | null)[], of: string): string {
   const known = values.filter((v): v is number => v !== null);
   if (!known.length) return '';
   const [low, high] = [known.reduce((a, b) => Math.min(a, b)), known.reduce((a, b) => Math.max(a, b))];
-  return `from ${number(low, of)} to ${withUnit(high, of)}`;
+  return t('from {low} to {high}', {low: number(low, of), high: withUnit(high, of)});
 }
 
 function extent(chart: Chart): [number, number] {

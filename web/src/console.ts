@@ -6,6 +6,7 @@ import {remember, remembered, type Purpose} from './files';
 import {Form} from './form';
 import {clone, type Row} from './json';
 import {keyed} from './key';
+import {choose as speak, type Language, later, t} from './language';
 import {point, rest} from './links';
 import {endpointName, endpointOrder, tabs} from './names';
 import {leadsOf, type Lead} from './onward';
@@ -21,6 +22,8 @@ import {ask, gone, Latest, path, type Answer, type Endpoint, type Example, type 
 import {SecondOpinion} from './second_opinion';
 import {Watch} from './watch';
 
+/** Pages without a job. */
+type Place = 'start' | 'own-machine';
 const firstJob = {endpoint: 'bevel-tables', example: 'source-000-table-1'};
 
 /** Optional fields that a new job has: without `connect` no member of a frame would be cut. */
@@ -41,8 +44,9 @@ export class Console {
   readonly job = signal(0); // counts opened jobs; edits belong to the same job
   readonly changes = signal(0); // of the job
   readonly formShown = signal(false);
-  readonly home = signal(false); // the first page is shown, and no job
-  readonly lost = signal<string | null>(null); // why the link in the address cannot be read
+  readonly home = signal(false); // a page without a job is shown: the first one, or the one that `place` names
+  readonly place = signal<Place>('start');
+  readonly lost = signal<(() => string) | null>(null); // why the link in the address cannot be read
   readonly lostAs = signal('damaged');
   readonly reply = signal<Reply | undefined>(undefined);
   readonly opinion = new SecondOpinion();
@@ -53,7 +57,7 @@ export class Console {
   readonly trouble = signal(''); // error of the drawing
   readonly leads = signal<Lead[]>([]);
   readonly wanted = signal(0); // how often files of a purpose were asked for
-  readonly linked = signal('Copy link');
+  readonly linked = signal(later('Copy link')); // a key of the texts
   readonly keyed = signal(false);
 
   readonly form: Form;
@@ -66,6 +70,7 @@ export class Console {
   private askedJob = 0;
   private questions = 0;
   private drawnJob = 0; // the one that the pictures are of
+  private redraw: (() => Promise<Picture | Error>) | undefined; // the last pictures
   private written = '';
   private writtenJob = 0;
   private writing = 0;
@@ -123,20 +128,21 @@ export class Console {
   /** Where the reader went: by the time this is heard of, the job before may have written its own address over it. */
   async arrive(hash: string): Promise<void> {
     clearTimeout(this.writing);
+    if (/^#\/?own-machine$/.test(hash)) return this.goHome('own-machine');
     const place = await address.read(hash);
     if (!place && hash && hash !== '#/' && this.job.value) return this.remember(); // a place in this page
     if (!place) return this.goHome();
-    if (place && 'damage' in place) return this.lose(place.damage);
+    if (place && 'damage' in place) return this.lose(() => t(place.damage));
     const draft = place.draft ?? (history.state as {draft?: string} | null)?.draft;
     const stored = draft && !place.example ? await draftOf(draft) : undefined;
     const kept = stored?.endpoint === place.endpoint ? stored : undefined;
     if (place.draft && !kept)
-      return this.lose('This job is kept in the browser that it was made in. Save it there as a file, and open the file here.', 'not here');
+      return this.lose(() => t('This job is kept in the browser that it was made in. Save it there as a file, and open the file here.'), 'not here');
     // The draft may be newer than its address, which follows a moment after each change.
     const {endpoint, example, body, view} = {...place, body: kept?.body ?? place.body};
-    if (!this.endpoints.some((e) => e.id === endpoint)) return this.lose(`There is no page called "${endpoint}".`);
+    if (!this.endpoints.some((e) => e.id === endpoint)) return this.lose(() => t('There is no page called "{endpoint}".', {endpoint}));
     if (example && !this.examples.some((e) => e.endpoint === endpoint && e.name === example))
-      return this.lose(`${endpointName(endpoint)} has no example called "${example}".`);
+      return this.lose(() => t('{endpoint} has no example called "{example}".', {endpoint: endpointName(endpoint), example}));
     batch(() => {
       this.view.value = view['view'] === 'before' ? 'before' : 'after';
       this.partners.value = view['partners'] !== 'off';
@@ -148,18 +154,20 @@ export class Console {
     this.writtenJob = this.job.value;
   }
 
-  private goHome(): void {
+  private goHome(place: Place = 'start'): void {
+    this.form.flush();
     batch(() => {
+      this.place.value = place;
       this.home.value = true;
       this.lost.value = null;
     });
     this.written = '';
-    document.title = 'tubecut';
+    this.entitle();
     this.told(this.countQuestion());
   }
 
   /** Reports that a link cannot be read, and shows nothing of another job in its place. */
-  private lose(why: string, what = 'damaged'): void {
+  private lose(why: () => string, what = 'damaged'): void {
     batch(() => {
       this.job.value += 1;
       this.home.value = false;
@@ -171,7 +179,7 @@ export class Console {
       this.clear();
       this.form.show({properties: {}}, {});
     });
-    document.title = 'tubecut';
+    this.entitle();
     this.told(this.countQuestion());
   }
 
@@ -211,11 +219,39 @@ export class Console {
       this.form.tabled = endpoint === 'frames' ? '/members' : undefined;
       this.form.show(this.schema ?? {}, body);
     });
-    document.title = `${endpointName(endpoint)} – tubecut`;
+    this.entitle();
     this.compute();
   }
 
-  /** The same job and answer in other units. */
+  private entitle(): void {
+    const shown = !this.home.value && this.lost.value === null;
+    const own = this.home.value && this.place.value === 'own-machine';
+    const name = shown ? endpointName(this.endpoint.value) : own ? t('Own machine and post') : '';
+    document.title = name ? `${name} – tubecut` : 'tubecut';
+  }
+
+  /** The same page in another language: draws the last answer again, without a request. */
+  async speak(to: Language): Promise<void> {
+    await speak(to);
+    this.entitle();
+    const asked = this.countQuestion();
+    const {redraw} = this;
+    const picture = await redraw?.();
+    batch(() => {
+      this.form.refresh();
+      if (redraw === this.redraw && picture && !(picture instanceof Error)) this.show(picture);
+    });
+    this.form.complain(this.reply.value?.problem?.errors ?? []);
+    this.told(asked);
+  }
+
+  private show(picture: Picture): void {
+    this.picture.value = picture;
+    this.said.value = picture.said ?? '';
+    this.leads.value = this.leadsOn();
+  }
+
+  /** The same job and answer in other units or words. */
   refresh(): void {
     this.form.refresh();
     this.compute();
@@ -241,7 +277,7 @@ export class Console {
   async openJob(file: File): Promise<void> {
     const job = jobOf(await file.text(), this.contract, this.pages, this.endpoint.value);
     if (job) this.start(job.endpoint, clone(job.body));
-    else this.trouble.value = `${file.name} is not a job: it must hold a request of this service as JSON.`;
+    else this.trouble.value = t('{file} is not a job: it must hold a request of this service as JSON.', {file: file.name});
   }
 
   /** Cuts square, or again as before. */
@@ -284,8 +320,11 @@ export class Console {
       try {
         const reply = await ask(endpoint, body, signal);
         const {answer} = body['columns'] ? await ask(endpoint, without(body, new Set(['columns'])), signal) : reply; // of some columns no picture can be drawn
-        const picture = answer && !signal.aborted ? await pictured(endpoint, body, answer, this.context) : undefined;
-        if (job === this.job.value && !signal.aborted) batch(() => this.take(reply, picture, asked));
+        const draw = answer && !signal.aborted ? () => pictured(endpoint, body, answer, this.context) : undefined;
+        const picture = await draw?.();
+        if (job !== this.job.value || signal.aborted) return;
+        if (draw) this.redraw = draw;
+        batch(() => this.take(reply, picture, asked));
       } finally {
         clearTimeout(busy);
         document.body.classList.remove('busy');
@@ -308,14 +347,13 @@ export class Console {
       if (odd) this.clear();
       this.answer.value = reply.answer;
       this.form.echo.value = reply.answer.request as Row;
-      this.said.value = odd ? '' : (picture?.said ?? '');
+      this.said.value = '';
       this.trouble.value = '';
       if (odd) this.failed(picture);
       // If it cannot be drawn, it leads only to its files.
-      const leads = odd ? [] : leadsOf(this.endpoint.value, this.body, reply.answer, this.context, this.contract);
-      this.leads.value = leads.filter((lead) => this.endpoints.some(({id}) => id === lead.endpoint));
+      this.leads.value = odd ? [] : this.leadsOn();
       if (picture && !odd) {
-        this.picture.value = picture;
+        this.show(picture);
         this.drawnJob = this.job.value;
       }
       // no picture of another job next to a refusal
@@ -339,8 +377,14 @@ export class Console {
 
   /** Shows an error of the drawing above the pictures. */
   readonly failed = (failure: unknown): void => {
-    this.trouble.value = `Not all of this answer could be drawn: ${failure instanceof Error ? failure.message : String(failure)}`;
+    this.trouble.value = t('Not all of this answer could be drawn: {why}', {why: failure instanceof Error ? failure.message : String(failure)});
   };
+
+  private leadsOn(): Lead[] {
+    const answer = this.answer.value;
+    const leads = answer ? leadsOf(this.endpoint.value, this.body, answer, this.context, this.contract) : [];
+    return leads.filter((lead) => this.endpoints.some(({id}) => id === lead.endpoint));
+  }
 
   private clear(): void {
     this.answer.value = this.picture.value = undefined;
@@ -395,10 +439,10 @@ export class Console {
     scrollTo(0, 0);
   }
 
-  /** The hash follows a moment after the last change. */
+  /** The hash follows a moment after the last change, and at once if the job is another: Back must lead to the page before it. */
   remember(): void {
     clearTimeout(this.writing);
-    this.writing = window.setTimeout(() => void this.writeHash(), 250);
+    this.writing = window.setTimeout(() => void this.writeHash(), this.writtenJob === this.job.value ? 250 : 0);
   }
 
   private async writeHash(): Promise<void> {
@@ -430,9 +474,9 @@ export class Console {
     await this.writeHash();
     const long = address.tooLong(location.hash);
     const done = !long && (await copied(location.href));
-    this.linked.value = long ? 'Too long: save the job' : done ? 'Link copied' : 'Copy the address';
+    this.linked.value = long ? later('Too long: save the job') : done ? later('Link copied') : later('Copy the address');
     setTimeout(() => {
-      this.linked.value = 'Copy link';
+      this.linked.value = later('Copy link');
     }, 1500);
   }
 

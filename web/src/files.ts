@@ -1,13 +1,14 @@
+import {later} from './language';
 import type {Format} from './schema';
 
 /** What a file is wanted for. */
 export type Purpose = 'program' | 'drawing' | 'model' | 'packet' | 'data';
 export const purposeNames: Record<Purpose, string> = {
-  packet: 'Shop packet',
-  program: 'Machine program',
-  drawing: 'Drawings and templates',
+  packet: later('Shop packet'),
+  program: later('Machine program'),
+  drawing: later('Drawings and templates'),
   model: 'CAD',
-  data: 'Data',
+  data: later('Data'),
 };
 
 const media: Record<string, [name: string, ending: string, purpose: Purpose]> = {
@@ -22,15 +23,17 @@ const media: Record<string, [name: string, ending: string, purpose: Purpose]> = 
   'text/x-gcode': ['G-code', 'ngc', 'program'],
   'text/x-iec61131-st': ['IEC 61131-3 ST', 'st', 'program'],
   'application/pdf': ['PDF', 'pdf', 'drawing'],
-  'application/zip': ['Shop packet (zip)', 'zip', 'packet'],
-  'application/x-ndjson': ['Lines (NDJSON)', 'ndjson', 'data'],
+  'application/zip': [later('Shop packet (zip)'), 'zip', 'packet'],
+  'application/x-ndjson': [later('Lines (NDJSON)'), 'ndjson', 'data'],
 };
 export function known(type: string): [name: string, ending: string, purpose: Purpose] {
   return media[type] ?? (/dstv|nc1/.test(type) ? ['DSTV', 'nc1', 'model'] : [type, 'txt', 'data']);
 }
 
-/** Options without a use in a program around a tube that is not round: it is cut in one pass, without tabs or marks, from a flat. */
-const ofRound = new Set(['passes', 'tabs', 'tab_mm', 'tabs_of', 'start_deg', 'marks', 'mark_speed_mm_min']);
+/** Options without a use in a program around a tube that is not round: it is cut in one pass, without tabs, from a flat. */
+const ofRound = new Set(['passes', 'tabs', 'tab_mm', 'tabs_of', 'start_deg']);
+
+const ofParts = new Set(['marks', 'mark_speed_mm_min']);
 
 /** The formats, views and options of an answer: sections of the wall are of round tubes only, STEP and NC1 also of `whole` parts. */
 export const printable = (formats: Format[], round: boolean, whole = false): Format[] =>
@@ -41,7 +44,7 @@ export const printable = (formats: Format[], round: boolean, whole = false): For
         .map((format) => ({
           ...format,
           views: format.views.filter((view) => view !== 'section'),
-          options: format.options.filter(({name}) => !ofRound.has(name)),
+          options: format.options.filter(({name}) => !ofRound.has(name) && (whole || !ofParts.has(name))),
         }));
 
 /** The purposes that an endpoint has files for. */
@@ -53,12 +56,12 @@ export type Option = Format['options'][number];
 
 /** Options by the question that they answer. */
 const groups: [title: string, names: string[]][] = [
-  ['Contents', ['files', 'paper', 'mirror', 'omega_deg']],
-  ['Machine and material', ['machine', 'material', 'speed_mm_min', 'post']],
-  ['Torch', ['torch', 'acknowledge', 'pierce_height_mm', 'pierce_delay_s', 'cut_height_mm', 'passes']],
-  ['Leads', ['lead_mm', 'overcut_mm', 'start_deg', 'pierce_b_deg']],
-  ['Tabs and marks', ['tabs', 'tab_mm', 'tabs_of', 'marks', 'mark_speed_mm_min']],
-  ['Axes', ['axial', 'pivot_length_mm', 'clearance_mm']],
+  [later('Contents'), ['files', 'paper', 'mirror', 'omega_deg']],
+  [later('Machine and material'), ['machine', 'material', 'speed_mm_min', 'post']],
+  [later('Torch'), ['torch', 'acknowledge', 'pierce_height_mm', 'pierce_delay_s', 'cut_height_mm', 'passes']],
+  [later('Leads'), ['lead_mm', 'overcut_mm', 'start_deg', 'pierce_b_deg']],
+  [later('Tabs and marks'), ['tabs', 'tab_mm', 'tabs_of', 'marks', 'mark_speed_mm_min']],
+  [later('Axes'), ['axial', 'pivot_length_mm', 'clearance_mm']],
 ];
 const drawn = new Set(['files', 'paper', 'mirror', 'omega_deg']);
 /** `post` names what `dialect` named before. */
@@ -106,7 +109,7 @@ export function groupsOf(formats: Format[], purpose: Purpose, given: Values, ref
   const options = new Map(own.map((option) => [option.name, option]));
   const program = hasProgram(purpose, given);
   const named = new Set(groups.flatMap(([, names]) => names));
-  const others: [string, string[]] = ['More', [...options.keys()].filter((name) => !named.has(name))];
+  const others: [string, string[]] = [later('More'), [...options.keys()].filter((name) => !named.has(name))];
   return [...groups, others].flatMap(([title, names]) => {
     const shown = names.flatMap((name) => {
       const option = options.get(name);

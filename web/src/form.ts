@@ -1,6 +1,6 @@
 import {signal} from '@preact/signals';
 import {Selection} from './frame/selection';
-import {said} from './hint';
+import {originalOf, said} from './hint';
 import {History} from './history';
 import {at, clone, isRow, put, sharing, type Json, type Row} from './json';
 import type {Contract, Schema} from './schema';
@@ -13,6 +13,8 @@ const rectangular = 'rectangular_tube';
 interface Complaint {
   id: string;
   text: string;
+  /** The service's own words. */
+  original: string;
 }
 type Complaints = ReadonlyMap<string, Complaint[]>; // by the pointer of their field
 const none: Complaints = new Map();
@@ -172,7 +174,7 @@ export class Form {
     issues.forEach((issue, index) => {
       const {pointer, holds} = nearest(issue.pointer)?.dataset ?? {};
       const to = pointer ?? holds;
-      if (to !== undefined) found.set(to, [...(found.get(to) ?? []), {id: `complaint-${index}`, text: said(issue)}]);
+      if (to !== undefined) found.set(to, [...(found.get(to) ?? []), {id: `complaint-${index}`, text: said(issue), original: originalOf(issue)}]);
     });
     this.complaints.value = found.size ? found : none;
   }

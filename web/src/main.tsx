@@ -2,6 +2,7 @@ import {render} from 'preact';
 import {Console} from './console';
 import {byId} from './dom';
 import {KeyNeeded, tried} from './key';
+import {speak, t, wanted} from './language';
 import {Contract} from './schema';
 import {Away, fetched, type Endpoint, type Example, type Machine, type Tube} from './service';
 import {Shell} from './view/shell';
@@ -33,18 +34,23 @@ async function begin(): Promise<void> {
     const why = failure instanceof Error ? failure.message : String(failure);
     render(
       <Shell>
-        {failure instanceof KeyNeeded ? <Unlock key={tried()} go={again} /> : <Silence title="The console could not start." detail={why} again={again} />}
+        {failure instanceof KeyNeeded ? <Unlock key={tried()} go={again} /> : <Silence title={t('The console could not start.')} detail={why} again={again} />}
       </Shell>,
       root,
     );
   }
 }
 
-root.replaceChildren(); // placeholders until this was loaded
-render(
-  <Shell>
-    <p class="waiting">Asking the service …</p>
-  </Shell>,
-  root,
-);
-void begin();
+/** Without its Chinese texts the page is English. */
+async function open(): Promise<void> {
+  await speak(wanted()).catch(() => {});
+  root.replaceChildren(); // placeholders until this was loaded
+  render(
+    <Shell>
+      <p class="waiting">{t('Waiting for the service …')}</p>
+    </Shell>,
+    root,
+  );
+  await begin();
+}
+void open();

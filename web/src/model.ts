@@ -1,11 +1,14 @@
 import type {Imported, ImportedPart, LengthUnit, Size} from './importer';
+import {later, type Values} from './texts';
 
 export type Importer = typeof import('./importer');
 /** Values that a file lacks, by the name of their control. */
 export type Answers = Record<string, string>;
 export interface Question {
   key: string;
+  /** A key of the page's texts, with its values. */
   text: string;
+  of?: Values;
   choices?: [value: string, name: string][];
   value?: string;
   hint?: string;
@@ -13,9 +16,18 @@ export interface Question {
   check?: boolean;
   /** More lines than one. */
   lines?: boolean;
+  /** A table whose columns are given a field each; its answer has them in the order of the columns, between commas. */
+  table?: Preview;
+}
+export interface Preview {
+  headings: string[];
+  rows: string[][];
+  /** Is a column missing without which no row can be read? */
+  open: boolean;
 }
 export interface Kind {
-  questions(importer: Importer, text: string, schedules: string[]): Question[];
+  /** `answers`: those that change the questions, so that they are asked once more. */
+  questions(importer: Importer, text: string, schedules: string[], answers?: Answers): Question[];
   read(importer: Importer, file: Uint8Array, answers: Answers): Imported | ImportedPart | Promise<Imported>;
 }
 
@@ -23,7 +35,7 @@ export const text = (file: Uint8Array): string => new TextDecoder().decode(file)
 const named = (list: readonly string[]): [string, string][] => list.map((each) => [each, each]);
 const unitAnswer = (answers: Answers): {unit?: LengthUnit} => (answers['unit'] ? {unit: answers['unit'] as LengthUnit} : {});
 
-const merge: Question = {key: 'merge', text: 'Members that go on in line are one piece', check: true};
+const merge: Question = {key: 'merge', text: later('Members that go on in line are one piece'), check: true};
 const merged = ({merge: said}: Answers): {merge_in_line?: true} => (said ? {merge_in_line: true} : {});
 const most = 30; // number of bores that are offered one by one
 
@@ -41,7 +53,11 @@ function positive(said: string): number {
 }
 
 const standards = ['en_10219', 'en_10210', 'astm_a500'] as const;
-const corner: Question = {key: 'corner', text: 'Corners of square tubes that it does not state', hint: `${standards.join(', ')} or the radius, mm`};
+const corner: Question = {
+  key: 'corner',
+  text: later('Corners of square tubes that it does not state'),
+  hint: later('en_10219, en_10210, astm_a500 or the radius, mm'),
+};
 function cornersOf({corner: said}: Answers): {corners?: (typeof standards)[number]; corner_radius_mm?: number} {
   const name = said?.trim();
   if (!name) return {};
@@ -64,8 +80,9 @@ function boreQuestions(importer: Importer, file: string): Question[] {
   const bores = asks.filter(({option}) => option === 'bore').slice(0, most);
   return bores.map(({key = '', count, likely}) => ({
     key: `bore ${key}`,
-    text: `Size of bore ${key}, of ${count} ${count === 1 ? 'component' : 'components'}`,
-    hint: likely.length > 0 ? `${likely.join(' or ')}?` : 'NPS 6, DN 150 or 168.3',
+    text: count === 1 ? later('Size of bore {key}, of {count} component') : later('Size of bore {key}, of {count} components'),
+    of: {key, count},
+    hint: likely.length > 0 ? `${likely.join(' / ')}?` : later('NPS 6, DN 150 or 168.3'),
   }));
 }
 
@@ -74,33 +91,82 @@ function boresOf(answers: Answers): {bores?: Record<string, string>} {
   return said.length > 0 ? {bores: Object.fromEntries(said.map(([key, value]) => [key.slice('bore '.length), value]))} : {};
 }
 
-function tableQuestions(importer: Importer, file: string): Question[] {
-  const {headings, columns, nodes} = importer.columnsOf(file);
-  const choices: [string, string][] = [['', '–'], ...named(headings.map((each) => each.trim()).filter(Boolean))];
-  const open = importer.fromCsv(file).asks.map(({option}) => option);
-  const marks: Question = {
-    key: 'decimal',
-    text: 'Mark of decimals',
-    choices: [
-      ['', 'not certain'],
-      ['.', 'point'],
-      [',', 'comma'],
-    ],
-  };
+const columnNames: Record<string, string> = {
+  id: later('id'),
+  start_x: later('start x'),
+  start_y: later('start y'),
+  start_z: later('start z'),
+  end_x: later('end x'),
+  end_y: later('end y'),
+  end_z: later('end z'),
+  node_a: later('node a'),
+  node_b: later('node b'),
+  outer_diameter: later('outer diameter'),
+  inner_corner_radius: later('inner corner radius'),
+  corner_radius: later('corner radius'),
+  up_x: later('up x'),
+  up_y: later('up y'),
+  up_z: later('up z'),
+  size: later('size'),
+  wall: later('wall'),
+  priority: later('priority'),
+  radius: later('radius'),
+  kind: later('kind'),
+  height: later('height'),
+  width: later('width'),
+  corners: later('corners'),
+};
+
+/** The fields of a table's columns, as a row of choices. */
+export const columnChoices: [string, string][] = [['', '–'], ...Object.entries(columnNames)];
+/** Answers whose change asks the questions once more. */
+export const asksAgain = ['headings'];
+
+function columnsQuestion(importer: Importer, file: string, headed: boolean | undefined): [headings: boolean, question: Question, nodes: boolean] {
+  const {headings, places, rows, nodes} = importer.columnsOf(file, headed === undefined ? {} : {headings: headed});
+  const width = [headings, ...rows].reduce((most, {length}) => Math.max(most, length), 0);
+  const fields = Array.from({length: width}, () => '');
+  for (const [field, at] of Object.entries(places)) fields[at] = field;
+  const open = importer.fromCsv(file, headed === undefined ? {} : {headings: headed}).frame === null;
+  return [headings.length > 0, {key: 'columns', text: later('Columns'), value: fields.join(), table: {headings, rows, open}}, nodes];
+}
+
+function tableQuestions(importer: Importer, file: string, _: string[], answers?: Answers): Question[] {
+  const [headings, columns, nodes] = columnsQuestion(importer, file, answers && answers['headings'] !== '');
   return [
-    {key: 'unit', text: 'Lengths in', choices: [['', 'as the table states, else mm'], ...named(Object.keys(importer.lengths))], value: ''},
-    ...(open.includes('decimal') ? [marks] : []),
-    ...importer.fields.map((field) => ({key: field, text: `Column of ${field.replace(/_/g, ' ')}`, choices, value: columns[field]?.trim() ?? ''})),
-    {key: 'all', text: 'Size of the other rows'},
+    {key: 'unit', text: later('Lengths in'), choices: [['', later('as the table states, else mm')], ...named(Object.keys(importer.lengths))], value: ''},
+    {
+      key: 'decimal',
+      text: later('Mark of decimals'),
+      choices: [
+        ['', later('as its numbers show')],
+        ['.', later('point')],
+        [',', later('comma')],
+      ],
+    },
+    {key: 'headings', text: later('A row has the names of the columns'), check: true, value: headings ? 'yes' : ''},
+    columns,
+    {key: 'all', text: later('Size of the other rows')},
     corner,
-    ...(nodes ? [] : [{key: 'nodes', text: 'Table of nodes: node, x, y, z', lines: true, hint: 'node, x, y, z'}]),
+    ...(nodes ? [] : [{key: 'nodes', text: later('Table of nodes: node, x, y, z'), lines: true, hint: 'node, x, y, z'}]),
     merge,
   ];
 }
 
+/** By index; a field without a column has none, also if a heading looks like it. */
+function columnsOf(importer: Importer, said: string): Record<string, number | null> {
+  const fields = said.split(',');
+  return Object.fromEntries(
+    importer.fields.map((field) => {
+      const at = fields.indexOf(field);
+      return [field, at < 0 ? null : at];
+    }),
+  );
+}
+
 export const kinds: Record<string, Kind> = {
   ifc: {
-    questions: () => [{key: 'origin', text: 'Its point that is the origin here, mm', hint: '0, 0, 0'}, corner, merge],
+    questions: () => [{key: 'origin', text: later('Its point that is the origin here, mm'), hint: '0, 0, 0'}, corner, merge],
     read: (importer, file, answers) => {
       const {origin} = answers;
       const more = {...(origin?.trim() ? {origin_mm: pointOf(origin)} : {}), ...cornersOf(answers)};
@@ -109,7 +175,7 @@ export const kinds: Record<string, Kind> = {
   },
   pcf: {
     questions: (importer, file, schedules) => [
-      {key: 'schedule', text: 'Schedule of pipes without a wall in the file', choices: [['', 'none'], ...named(schedules)]},
+      {key: 'schedule', text: later('Schedule of pipes without a wall in the file'), choices: [['', later('none')], ...named(schedules)]},
       ...boreQuestions(importer, file),
       merge,
     ],
@@ -121,17 +187,18 @@ export const kinds: Record<string, Kind> = {
   csv: {
     questions: tableQuestions,
     read: (importer, file, answers) => {
-      const columns = Object.fromEntries(importer.fields.flatMap((field) => (answers[field] ? [[field, answers[field]]] : [])));
+      const columns = columnsOf(importer, answers['columns'] ?? '');
+      const headings = answers['headings'] !== '';
       const {nodes, decimal} = answers;
       const size = sizeOf(answers['all']);
       const more = {...(size ? {size} : {}), ...(nodes?.trim() ? {nodes} : {}), ...(decimal ? {decimal: decimal as '.' | ','} : {})};
-      return importer.fromCsv(text(file), {columns, ...unitAnswer(answers), ...cornersOf(answers), ...more, ...merged(answers)});
+      return importer.fromCsv(text(file), {columns, headings, ...unitAnswer(answers), ...cornersOf(answers), ...more, ...merged(answers)});
     },
   },
   dxf: {
     questions: (importer, file) => [
-      {key: 'unit', text: 'Drawn in', choices: [['', 'as it says'], ...named(Object.keys(importer.lengths))], value: ''},
-      ...importer.layersOf(file).map((layer) => ({key: `layer ${layer}`, text: `Size of ${layer}`})),
+      {key: 'unit', text: later('Drawn in'), choices: [['', later('as it says')], ...named(Object.keys(importer.lengths))], value: ''},
+      ...importer.layersOf(file).map((layer) => ({key: `layer ${layer}`, text: later('Size of {layer}'), of: {layer}})),
       corner,
       merge,
     ],

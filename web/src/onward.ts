@@ -1,4 +1,5 @@
 import {isRow, rowsOf, type Json, type Row} from './json';
+import {t} from './language';
 import {column} from './picture';
 import {without, type Context} from './pictures/context';
 import {tube} from './pictures/geometry';
@@ -43,22 +44,22 @@ const picked = (row: Row, keys: string[]): Row => Object.fromEntries(keys.flatMa
 export function leadsOf(endpoint: string, body: Row, answer: Answer, {sizes, machines}: Pick<Context, 'sizes' | 'machines'>, contract: Contract): Lead[] {
   const own = without(body);
   if (endpoint === 'intersections')
-    return [{name: 'Cut and bevel', endpoint: 'bevel-tables', body: {...picked(own, ['target', 'cutters', 'node']), ...usualCut}}];
+    return [{name: t('Cut and bevel'), endpoint: 'bevel-tables', body: {...picked(own, ['target', 'cutters', 'node']), ...usualCut}}];
   const round = !isRow(answer.result['section']);
   // Those for comparison only (`inward`) are cut by no machine.
   if (endpoint === 'bevel-tables' && answer.result['b_sign'] !== 'inward') {
     const motion = round ? usualMotion : sectionMotion(bevelsOf(answer.result), machines);
     return [
-      {name: 'Part', endpoint: 'parts', body: partOf(body, answer.result)},
-      ...(motion ? [{name: 'Pulses', endpoint: 'pulse-schedules', body: {cut: own, ...motion}}] : []),
+      {name: t('Part'), endpoint: 'parts', body: partOf(body, answer.result)},
+      ...(motion ? [{name: t('Pulses'), endpoint: 'pulse-schedules', body: {cut: own, ...motion}}] : []),
     ];
   }
   if (endpoint === 'parts') return round ? pulsesOf(answer, sizes) : sectionPulses(own, answer, machines);
   if (endpoint === 'grooves') {
     const schema = contract.request(path('mill-paths')) ?? {};
-    return [{name: 'Mill path', endpoint: 'mill-paths', body: contract.make(schema, {groove: own}) as Row}];
+    return [{name: t('Mill path'), endpoint: 'mill-paths', body: contract.make(schema, {groove: own}) as Row}];
   }
-  if (endpoint === 'mill-paths') return [{name: 'Pulses', endpoint: 'pulse-schedules', body: {mill_path: own, ...usualMotion, machine: 'cone_mill'}}];
+  if (endpoint === 'mill-paths') return [{name: t('Pulses'), endpoint: 'pulse-schedules', body: {mill_path: own, ...usualMotion, machine: 'cone_mill'}}];
   return [];
 }
 
@@ -82,7 +83,7 @@ function sectionPulses(body: Row, {result}: Answer, machines: Context['machines'
     const motion = sectionMotion(bevelsOf((result['ends'] as Row)[side] as Row), machines);
     if (!motion || !isRow(end) || !rowsOf(end['cutters']).length) return [];
     const cut: Row = {...picked(body, [...ofEnd, ...ofPart]), ...picked(end, ofEnd), target};
-    return [{name: `Pulses, ${choice(side)}`, endpoint: 'pulse-schedules', body: {cut: without(cut), ...motion}}];
+    return [{name: t('Pulses, {end}', {end: choice(side)}), endpoint: 'pulse-schedules', body: {cut: without(cut), ...motion}}];
   });
 }
 
@@ -95,7 +96,7 @@ function pulsesOf({request, result}: Answer, sizes: Context['sizes']): Lead[] {
     const contour: Row = {...picked(end, ['surface', 'scrap', 'b_sign']), outer_diameter_mm: outer, wall_mm: wall, closed: true};
     return [
       {
-        name: `Pulses, ${choice(side)}`,
+        name: t('Pulses, {end}', {end: choice(side)}),
         endpoint: 'pulse-schedules',
         body: {contour: {...contour, points: picked(end['points'] as Row, ofContour)}, ...usualMotion},
       },

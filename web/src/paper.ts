@@ -19,6 +19,18 @@ export async function onPaper(): Promise<void> {
   }
 }
 
+/** Prints only a drawing, at its own size. */
+export function printDrawing(drawing: SVGSVGElement): void {
+  const sheet = Object.assign(document.createElement('div'), {id: 'sheet'});
+  sheet.append(drawing.cloneNode(true));
+  document.body.append(sheet);
+  try {
+    print();
+  } finally {
+    sheet.remove();
+  }
+}
+
 // By the browser's own command there is no time to draw anew; the colours follow.
 addEventListener('beforeprint', () => lay(true));
 addEventListener('afterprint', () => lay(false));

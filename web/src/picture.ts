@@ -125,6 +125,8 @@ export interface Chart {
   turn?: number;
   /** Seconds of a period, if x is time. */
   pace?: number;
+  /** Of a chart over time: the angle at each of its points, which never goes back, and the developed length of a degree, mm. */
+  round?: {phi: number[]; perDegree: number};
   unit: string;
   series: Series[];
   height?: number;

@@ -1,12 +1,14 @@
 import type {Imported, ImportedPart} from './importer';
+import {t} from './language';
 import type {Answers, Question} from './model';
 
-/** An order to read a file: without answers it returns questions, else the content. */
+/** An order to read a file: it returns the content, or the questions; without answers, for the first time. */
 export interface Order {
   ending: string;
   file: Uint8Array;
   schedules: string[];
   answers?: Answers;
+  again?: boolean; // the questions, as they are after the answers
 }
 export type Told = {questions: Question[]} | {imported: Imported | ImportedPart} | {failure: string};
 
@@ -28,10 +30,13 @@ export class Reading {
         if (end) this.end();
         act();
       };
-      const timer = setTimeout(() => over(() => reject(new Error(`Reading took longer than ${patience} s and was stopped.`)), true), patience * 1000);
+      const timer = setTimeout(
+        () => over(() => reject(new Error(t('Reading took longer than {patience} s and was stopped.', {patience}))), true),
+        patience * 1000,
+      );
       this.drop = () => clearTimeout(timer);
       worker.onmessage = ({data}: MessageEvent<Told>) => over(() => ('failure' in data ? reject(new Error(data.failure)) : resolve(data)), false);
-      worker.onerror = (event) => over(() => reject(new Error(event.message || 'The reader of models could not be loaded.')), true);
+      worker.onerror = (event) => over(() => reject(new Error(event.message || t('The reader of models could not be loaded.'))), true);
       worker.postMessage(order);
     });
   }

@@ -1,4 +1,5 @@
 import {clone, isRow, type Json, type Row} from './json';
+import {t} from './language';
 import {choice, label} from './words';
 
 /** A format of an answer, its drawings (the first is the default) and the query parameters it reads. */
@@ -212,10 +213,10 @@ export class Contract {
 
   /** Returns "tube · outer Ø, axis": the fields that distinguish a branch from the others. */
   branchName(branches: Schema[], branch: Schema): string {
-    if (branch.title) return branch.title;
+    if (branch.title) return t(branch.title);
     if ('const' in branch) return choice(branch.const);
     if (branch.enum) return branch.enum.map(choice).join(' / ');
-    if (!branch.properties) return branch.type === 'null' ? 'none' : (branch.type ?? 'value');
+    if (!branch.properties) return branch.type === 'null' ? t('none') : t(branch.type ?? 'value');
     const kind = this.kind(branch);
     const like = branches.filter((other) => other.properties && this.kind(other) === kind);
     const alike = like.length === branches.length;
@@ -227,8 +228,8 @@ export class Contract {
       .filter((key) => shared(key) === fewest)
       .slice(0, 2)
       .map((key) => label(key))
-      .join(', ');
-    return [alike ? '' : kind, by].filter(Boolean).join(' · ') || `no ${label(this.telling(branches))}`;
+      .join(t(', '));
+    return [alike ? '' : kind, by].filter(Boolean).join(' · ') || t('no {field}', {field: label(this.telling(branches))});
   }
 
   /** Returns the field that distinguishes some branches. */

@@ -1,6 +1,7 @@
 import {signal} from '@preact/signals';
 import type {Certificate} from '../../clients/check/src/index';
 import type {Json} from './json';
+import {t} from './language';
 import {fetched, type Reply} from './service';
 
 /** An answer and its request as they were sent, and what names in the request mean. */
@@ -37,7 +38,7 @@ export class SecondOpinion {
     this.worker = worker;
     return new Promise<Told>((resolve, reject) => {
       worker.onmessage = ({data}: MessageEvent<Told>) => resolve(data);
-      worker.onerror = (event) => reject(new Error(event.message || 'The independent checker could not be loaded.'));
+      worker.onerror = (event) => reject(new Error(event.message || t('The independent checker could not be loaded.')));
       worker.postMessage({answer: text, request: sent, names: {tubes, machines}} satisfies Order);
     }).finally(() => worker.terminate());
   }

@@ -1,6 +1,7 @@
 import type {components} from '../../clients/typescript/src/schema';
 import type {Json, Row} from './json';
 import {headed, KeyNeeded} from './key';
+import {later, t} from './language';
 
 type Contract = components['schemas'];
 export type Example = Omit<Contract['Examples']['examples'][number], 'body'> & {body: Row};
@@ -43,8 +44,8 @@ export const path = (endpoint: string) => `/v1/${endpoint}`;
 export const away: Problem = {
   code: 'unreachable',
   status: 0,
-  title: 'The service cannot be reached.',
-  action: 'It may have been stopped, or the network is down. Your input is kept, and is computed as soon as the service is back.',
+  title: later('The service cannot be reached.'),
+  action: later('It may have been stopped, or the network is down. Your input is kept, and is computed as soon as the service is back.'),
 };
 
 /** Whether the service, or what is behind a proxy, is away. */
@@ -56,11 +57,11 @@ export class Away extends Error {}
 
 export async function fetched<T>(address: string): Promise<T> {
   const reply = await fetch(address, {headers: headed()}).catch(() => {
-    throw new Away(away.title);
+    throw new Away(t(away.title));
   });
   if (reply.status === 401) throw new KeyNeeded(`${address} answered 401`);
-  if (reply.status >= 500) throw new Away(`${address} answered ${reply.status}`);
-  if (!reply.ok) throw new Error(`${address} answered ${reply.status}`);
+  if (reply.status >= 500) throw new Away(t('{address} answered {status}', {address, status: reply.status}));
+  if (!reply.ok) throw new Error(t('{address} answered {status}', {address, status: reply.status}));
   return (await reply.json()) as T;
 }
 
@@ -88,7 +89,10 @@ export async function ask(endpoint: string, body: Json, signal?: AbortSignal): P
     return {problem: json as unknown as Problem, milliseconds};
   } catch {
     // for example a proxy's page
-    return {problem: {code: 'unreadable_answer', title: `The answer (status ${reply.status}) is no JSON.`, status: reply.status}, milliseconds};
+    return {
+      problem: {code: 'unreadable_answer', title: t('The answer (status {status}) is no JSON.', {status: reply.status}), status: reply.status},
+      milliseconds,
+    };
   }
 }
 

@@ -1,3 +1,5 @@
+import {later} from './language';
+
 /** The tasks of a user, in the order of the pages: each with its endpoints and the examples to begin with. */
 export interface Task {
   id: string;
@@ -10,29 +12,29 @@ export interface Task {
 export const tasks: Task[] = [
   {
     id: 'joint',
-    name: 'A joint',
-    about: 'One end of a tube, cut to fit the tubes that it meets: bevel table, template, weld groove.',
+    name: later('A joint'),
+    about: later('One end of a tube, cut to fit the tubes that it meets: bevel table, template, weld groove.'),
     endpoints: ['bevel-tables', 'intersections', 'nodes', 'holes', 'grooves'],
     examples: ['bevel-tables/source-000-table-1', 'bevel-tables/shs-brace-on-shs-chord', 'nodes/k-joint-with-tables', 'holes/set-on-branch'],
   },
   {
     id: 'part',
-    name: 'A part',
-    about: 'A whole tube with both ends, holes and cut-outs: lengths, drawings, program, CAD model.',
+    name: later('A part'),
+    about: later('A whole tube with both ends, holes and cut-outs: lengths, drawings, program, CAD model.'),
     endpoints: ['parts'],
     examples: ['parts/base-post', 'parts/chord-with-holes', 'parts/gate-rail-of-60x40-mitred', 'parts/rack-upright'],
   },
   {
     id: 'frame',
-    name: 'A frame',
-    about: 'All members in one job, typed or imported: cut list, warnings by member, packet for the shop.',
+    name: later('A frame'),
+    about: later('All members in one job, typed or imported: cut list, warnings by member, packet for the shop.'),
     endpoints: ['frames'],
     examples: ['frames/roll-cage-of-12', 'frames/truss-of-19', 'frames/rhs-gate', 'frames/rhs-trailer'],
   },
   {
     id: 'machine',
-    name: 'My machine',
-    about: 'Pulses, feed curves and mill paths within the limits of one machine, replayed before they run.',
+    name: later('My machine'),
+    about: later('Pulses, feed curves and mill paths within the limits of one machine, replayed before they run.'),
     endpoints: ['pulse-schedules', 'replays', 'feed-curves', 'mill-paths'],
     examples: [
       'pulse-schedules/table-1-on-the-five-axis-cutter',

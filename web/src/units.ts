@@ -1,4 +1,5 @@
 import {signal} from '@preact/signals';
+import {t} from './language';
 
 /** The system that lengths are entered and shown in. Requests, answers and files are in mm whatever it is. */
 export type System = 'mm' | 'inch';
@@ -38,7 +39,7 @@ const inInches: Record<string, [name: string, size: number]> = {
 const other = (unit: string) => (system.value === 'inch' ? inInches[unit] : undefined);
 
 /** A unit of the wire as it is shown. */
-export const shownUnit = (unit: string): string => other(unit)?.[0] ?? unit;
+export const shownUnit = (unit: string): string => other(unit)?.[0] ?? t(unit);
 /** A value in a unit of the wire as it is shown, and back. */
 export const toShown = (value: number, unit: string): number => value / (other(unit)?.[1] ?? 1);
 /** Without the digits that only the conversion makes: 24.15 in is 613.41 mm. */

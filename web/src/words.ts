@@ -1,6 +1,7 @@
 import words from 'virtual:words';
 import type {Words} from '../glossary/words';
 import {keys} from './json';
+import {chinese, t} from './language';
 import {shownUnit, toShown} from './units';
 
 // How values, names and sentences are written for people: numbers with their units, then words.
@@ -111,13 +112,20 @@ export function ticks(values: number[]): string[] {
  * Returns the name of a wire name, and its sentence: docs/glossary.md. `within` is the name of its
  * container.
  */
-const entry = (key: string, within: string) => words.fields[`${within}.${key}`] ?? words.fields[key];
-export const label = (key: string, within = '') => entry(key, within)?.[0] ?? spaced(key);
+const entryIn = ({fields}: Words, key: string, within: string) => fields[`${within}.${key}`] ?? fields[key];
+const entry = (key: string, within: string) => entryIn(chinese()?.words ?? words, key, within) ?? entryIn(words, key, within);
+export const label = (key: string, within = '') => entry(key, within)?.[0] ?? t(spaced(key));
 export const about = (key: string, within = '') => entry(key, within)?.[1] ?? '';
+const englishLabel = (key: string, within = '') => entryIn(words, key, within)?.[0] ?? spaced(key);
 
 const spaced = (text: string) => text.replace(/_/g, ' ');
 /** Begins with a capital, but for a symbol, which has its own case. */
 export const sentence = (text: string) => (/^[a-z][a-z’'-]/.test(text) ? text.charAt(0).toUpperCase() + text.slice(1) : text);
+
+/** Sentences one after the other. */
+export const sentences = (...all: string[]) => all.filter(Boolean).join(chinese() ? '' : ' ');
+/** Returns meaning and action of a code in Chinese, or undefined if the page is English. */
+export const saidOf = (kind: 'errors' | 'warnings', code: string) => chinese()?.codes[kind][code];
 
 /** A text with more details on hover. */
 export type Term = string | {text: string; about: string};
@@ -130,7 +138,8 @@ export function term(key: string, within = ''): Term {
 }
 
 /** A warning's code, or one of a field's choices. */
-export const choice = (value: unknown) => words.values[String(value)]?.[0] ?? spaced(String(value));
+export const choice = (value: unknown) => chinese()?.words.values[String(value)]?.[0] ?? t(englishChoice(value));
+const englishChoice = (value: unknown) => words.values[String(value)]?.[0] ?? spaced(String(value));
 
 export const isWord = (name: string) => name in words.values;
 
@@ -139,15 +148,15 @@ type Kind = keyof Pick<Words, 'checks' | 'limits'>;
 export function check(name: string): {name: string; about: string; kind: Kind} {
   for (let [of, rest] = ['', name]; rest; ) {
     for (const kind of ['checks', 'limits'] as const) {
-      const found = words[kind][rest];
-      if (found) return {name: of ? `${spaced(of)}: ${found[0]}` : found[0], about: found[1], kind};
+      const found = chinese()?.words[kind][rest] ?? words[kind][rest];
+      if (found) return {name: of ? t('{part}: {check}', {part: t(spaced(of)), check: found[0]}) : found[0], about: found[1], kind};
     }
     const cut = rest.indexOf('_');
     if (cut < 0) break;
     of = name.slice(0, name.length - rest.length + cut);
     rest = rest.slice(cut + 1);
   }
-  return {name: spaced(name), about: '', kind: 'checks'};
+  return {name: t(spaced(name)), about: '', kind: 'checks'};
 }
 
 /** Returns the name of the nearest object or list that contains a pointer's target. */
@@ -159,14 +168,16 @@ export const holder = (pointer: string) =>
 export const lastKey = (pointer: string) => pointer.slice(pointer.lastIndexOf('/') + 1);
 
 /** Where a pointer leads, in words: `/cutters/1/wall_mm` is "Partners 2, wall". */
-export function place(pointer: string): string {
+export const place = (pointer: string): string => sentence(placed(pointer, label).join(t(', '))) || t('The request');
+
+function placed(pointer: string, called: typeof label): string[] {
   const path = keys(pointer);
   const out: string[] = [];
   path.forEach((key, i) => {
     if (/^\d+$/.test(key) && out.length) out[out.length - 1] += ` ${Number(key) + 1}`;
     else
       out.push(
-        label(
+        called(
           key,
           path
             .slice(0, i)
@@ -175,11 +186,11 @@ export function place(pointer: string): string {
         ),
       );
   });
-  return sentence(out.join(', ')) || 'The request';
+  return out;
 }
 
-/** A sentence of the service for people: names in words, numbers short, one sign for degrees. Names out of a list, such as those of machines, stay as
- *  they are, because they are what is entered. */
+/** A sentence of the service for people: names in English words as the rest of it, numbers short, one sign for degrees. Names out of a list, such as
+ *  those of machines, stay as they are, because they are what is entered. */
 export const plain = (said: string) =>
   said
     .split(/(\w+(?:\|\w+)+)/)
@@ -190,8 +201,8 @@ const called = (name: string) => words.values[name]?.[0] ?? name;
 
 const worded = (said: string) =>
   said
-    .replace(/(?!\/v1\/)(?<![\w/])(?:\/[a-z_0-9]+)+\/[a-z_0-9]+/g, (pointer) => place(pointer))
-    .replace(/\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+\b/g, (name) => words.fields[name]?.[0] ?? choice(name))
+    .replace(/(?!\/v1\/)(?<![\w/])(?:\/[a-z_0-9]+)+\/[a-z_0-9]+/g, (pointer) => sentence(placed(pointer, englishLabel).join(', ')))
+    .replace(/\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+\b/g, (name) => words.fields[name]?.[0] ?? englishChoice(name))
     .replace(/-?\d+\.\d+(?:e[-+]?\d+)?/g, (digits) => (digits.length > 7 ? number(Number(digits)) : digits))
     .replace(/(\d+(?:\.\d+)?) (deg|mm(?:\/min|\/s)?)(?![\w/²³])/g, (all, digits, of) =>
       Number(digits) < 0.01 ? all : beside(number(Number(digits), of === 'deg' ? '°' : of), of === 'deg' ? '°' : of),

@@ -66,6 +66,6 @@ export const checks = {
     assert.deepEqual((await found()).map((each) => each.split(/: ?/)[0]), ['clipped', 'no hint', 'button-name']);
     await page.context().close();
   },
-  // The first of each kind and one of four others, of which a third with every tab; all of them: ./dev soak pages
-  'at 1280 and 390 px, light and dark; some with every tab, to axe too': (given) => sound(given, {chosen: sample(4, given.seed), whole: sample(12, given.seed)}),
+  // The first of each kind and one of ten others, of which a third with every tab; all of them: ./dev soak pages
+  'at 1280 and 390 px, light and dark; some with every tab, to axe too': (given) => sound(given, {chosen: sample(10, given.seed), whole: sample(30, given.seed)}),
 };

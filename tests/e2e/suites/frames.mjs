@@ -103,24 +103,23 @@ async function agrees(page, name, {result, verdict, parts}, width) {
 }
 
 export const checks = {
-  'lists, cut list and picture tell of the members that the answer has, wide and light, and narrow and dark': async ({browser, origin, service}) => {
+  // One view for each example, because a view takes 2 s; the other kind follows with the next example.
+  'lists, cut list and picture tell of the members that the answer has, wide and light, or narrow and dark': async ({browser, origin, service}) => {
     assert.ok(names.length >= 6);
     const page = await open(browser, origin, undefined, {height: 844});
     await answered(page);
     const views = [[1280, 'light'], [390, 'dark']];
-    for (const name of names) {
+    for (const [i, name] of names.entries()) {
       const answer = await answerTo(service, example(name));
       await then(page, () => page.evaluate((to) => {
         location.hash = to;
       }, `#/frames/${name}`));
-      for (const [width, theme] of views) {
-        await page.setViewportSize({width, height: 844});
-        await page.emulateMedia({colorScheme: theme});
-        await page.locator(`:root[data-theme=${theme}]`).waitFor();
-        await pixels(page);
-        await agrees(page, name, answer, width);
-      }
-      views.reverse();  // a view less to change
+      const [width, theme] = views[i % 2];
+      await page.setViewportSize({width, height: 844});
+      await page.emulateMedia({colorScheme: theme});
+      await page.locator(`:root[data-theme=${theme}]`).waitFor();
+      await pixels(page);
+      await agrees(page, name, answer, width);
     }
     clean(page);
     await page.context().close();
@@ -183,11 +182,11 @@ export const checks = {
       const page = await frame(browser, origin, name);
       const box = await canvas(page).boundingBox();
       const places = [];
-      for (let i = 0; i < 20; ++i) for (let j = 0; j < 20; ++j) places.push([0.02 + 0.96 * i / 19, 0.12 + 0.8 * j / 19]);
+      for (let i = 0; i < 14; ++i) for (let j = 0; j < 14; ++j) places.push([0.02 + 0.96 * i / 13, 0.12 + 0.8 * j / 13]);
       const shares = await Promise.all(places.map(async (at) => [await solidAt(page, at, 3), await solidAt(page, at, 12)]));
       const within = places.filter((_, i) => shares[i][0] === 1);
       const beside = places.filter((_, i) => shares[i][1] === 0);
-      assert.ok(within.length > 40 && beside.length > 40, `${name}: ${within.length} places on it, ${beside.length} beside it`);
+      assert.ok(within.length > 20 && beside.length > 20, `${name}: ${within.length} places on it, ${beside.length} beside it`);
       for (const at of beside) {
         await page.mouse.click(box.x + at[0] * box.width, box.y + at[1] * box.height);
         assert.match(await facts(page), /^Choose one/, `${name}: nothing is at ${at}`);

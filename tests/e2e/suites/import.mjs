@@ -6,6 +6,7 @@ import {readFileSync} from 'node:fs';
 import {bores, file, squareFaces} from '../../../clients/import/test/support/nc1_files.mjs';
 import {shift, Step} from '../../../clients/import/test/support/step.mjs';
 import {answered, answers, open, pixels, then} from '../browser.mjs';
+import {barred} from '../seen.mjs';
 
 const beside = (path) => readFileSync(new URL(`../../../${path}`, import.meta.url), 'utf8');
 const spool = beside('clients/import/test/data/pipe-spool.pcf');
@@ -131,7 +132,7 @@ export const checks = {
     await page.keyboard.press('Enter');
     await then(page, async () => (await chooser).setFiles({name: 'spool.PCF', mimeType: 'text/plain', buffer: Buffer.from(spool)}));
     assert.match(await page.locator('#imported-said').innerText(), /^1 member and \d others that cut\. 8 things were not understood:/);
-    assert.ok((await missed(page)).some((line) => /^line 18 PIPE: .*no schedule was given/.test(line)));
+    assert.ok((await missed(page)).some((line) => /^5 × PIPE: .*no schedule was given \(line 18, /.test(line)));
     await then(page, () => page.locator('[data-question=schedule]').selectOption('SCH 40'));
     assert.deepEqual(await missed(page), []);
     const {members, others, joints} = await request(page);
@@ -153,10 +154,12 @@ export const checks = {
     await choose(page, 'tubes.csv', csv);
     await page.locator('#not-understood li').nth(1).waitFor();
     assert.match(await page.locator('#imported-said').innerText(), /^No member was found/);
-    const columns = {id: 'Name', outer_diameter: 'across', wall: 'gauge'};
+    const meaning = (i) => page.locator(`[data-column="${i}"]`);
+    assert.ok(await meaning(0).isVisible(), 'the columns are shown because one is missing');
+    assert.deepEqual(await Promise.all([0, 1, 7].map((i) => meaning(i).inputValue())), ['id', 'start_x', '']);
     await page.locator('[data-question=unit]').selectOption('in');
-    for (const [field, column] of Object.entries(columns).slice(0, 2)) await page.locator(`[data-question=${field}]`).selectOption(column);
-    await then(page, () => page.locator('[data-question=wall]').selectOption(columns.wall));
+    await meaning(7).selectOption('outer_diameter');
+    await then(page, () => meaning(8).selectOption('wall'));
     assert.match(await page.locator('#imported-said').innerText(), /^2 members\. Nothing was omitted\./);
     const {members} = await request(page);
     assert.deepEqual(members, [
@@ -180,6 +183,42 @@ export const checks = {
     assert.deepEqual((await request(page)).members.map(({id, size, wall_mm}) => [id, size ?? wall_mm]), [['CHORD 1', 5], ['BRACE 2', 'CHS 48.3x3.2']]);
     clean(page);
     await page.context().close();
+  },
+
+  'a table without headings is pasted, its columns are matched by the keyboard, and the frame is there': async ({browser, origin}) => {
+    for (const [size, theme] of [[1280, 'light'], [390, 'dark']]) {
+      const page = await frames(browser, origin, {width: size, height: 844, theme});
+      await page.locator('#paste-table').focus();
+      await page.keyboard.press('Enter');
+      const box = page.locator('#imported textarea');
+      assert.ok(await box.evaluate((node) => node === document.activeElement), 'it is pasted at once');
+      await box.fill(`post;48,3;0;0;0;0;0;1200,5;3,2\nrail;48,3;0;0;1200,5;900;0;1200,5;3,2\n${'lost;48,3;0;0;0;0;0;0;3,2\n'.repeat(30)}`);
+      await page.locator('#imported table').waitFor();
+      assert.equal(await page.locator('[data-question=headings]').isChecked(), false);
+      assert.equal(await page.locator('.matched tbody tr').count(), 20);
+      assert.match(await page.locator('.matched summary').innerText(), /0 of 9 have a meaning/);
+      const fields = ['id', 'outer_diameter', 'start_x', 'start_y', 'start_z', 'end_x', 'end_y', 'end_z'];
+      for (const [i, field] of fields.entries()) await page.locator(`[data-column="${i}"]`).selectOption(field);
+      const last = page.locator('[data-column="8"]');
+      await last.focus();
+      await then(page, () => last.press('w'));
+      assert.equal(await last.inputValue(), 'wall');
+      assert.deepEqual((await request(page)).members, [
+        {id: 'post', start_mm: [0, 0, 0], end_mm: [0, 0, 1200.5], outer_diameter_mm: 48.3, wall_mm: 3.2},
+        {id: 'rail', start_mm: [0, 0, 1200.5], end_mm: [900, 0, 1200.5], outer_diameter_mm: 48.3, wall_mm: 3.2},
+      ]);
+      assert.deepEqual(await missed(page), ['30 × CSV: it has no length (row 3, row 4, row 5, row 6, row 7 …)']);
+      // A field has one column, and what is not a heading is a row.
+      await page.locator('[data-column="1"]').selectOption('wall');
+      await page.locator('#not-understood', {hasText: 'no column for outer_diameter'}).waitFor();
+      assert.equal(await last.inputValue(), '');
+      await page.locator('[data-question=headings]').check();
+      await page.locator('.matched th', {hasText: 'post'}).waitFor();
+      assert.deepEqual(await barred(page), []);
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= size, 'the page is as wide as the screen');
+      clean(page);
+      await page.context().close();
+    }
   },
 
   'unknown bores are asked for by name, members in line are one piece if that is ticked': async ({browser, origin}) => {

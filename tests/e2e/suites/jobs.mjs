@@ -86,6 +86,7 @@ export const checks = {
     assert.deepEqual([...await barred(page), ...await unseen(page), ...await faint(page)], []);
     await then(page, () => page.locator('[data-new=parts]').click());
     assert.equal(await endpoint(page), 'parts');
+    await page.waitForURL(/#\/parts\//);  // before it, Back would leave the console
     await then(page, () => page.goBack());
     await then(page, () => page.locator('[data-task=part] .examples a').first().click());
     await then(page, () => page.locator('[data-pointer="/target/id"]').fill('<b>rail</b> 7'));

@@ -60,6 +60,57 @@ async function whole({browser, origin}, width, height) {
 }
 
 export const checks = {
+  'the names and joints of a frame are those that its section leaves': async ({browser, origin}) => {
+    const page = await open(browser, origin, '#/frames/truss-of-19');
+    await answered(page);
+    await pixels(page);
+    const shown = async () => (await page.locator('.labels .shown').allInnerTexts()).filter(Boolean);
+    const whole = await shown();
+    await page.locator('#view-section').click();
+    await pixels(page);
+    const first = await shown();
+    await page.locator('#view-other').click();
+    await pixels(page);
+    const other = await shown();
+    const {members} = JSON.parse(await (await page.request.get(`${origin}/v1/examples`)).text()).examples.find(({name}) => name === 'truss-of-19').body;
+    const [x] = (await page.locator('#sliced').innerText()).match(/[\d.]+/);
+    const runs = (names) => members.filter(({id}) => names.includes(id)).map(({start_mm, end_mm}) => [start_mm[0], end_mm[0]]);
+    assert.ok(first.length > 3 && other.length > 3 && whole.length > 6);
+    assert.ok(runs(first).every((ends) => Math.min(...ends) <= Number(x)), `${first} before ${x}`);
+    assert.ok(runs(other).every((ends) => Math.max(...ends) >= Number(x)), `${other} after ${x}`);
+    await page.context().close();
+  },
+
+  'a section leaves one half of the model or the other, and what it leaves out is not measured': async ({browser, origin}) => {
+    for (const [width, hash, theme] of [[1280, '#/parts/shs-base-post', 'light'], [390, '#/bevel-tables/source-000-table-1', 'dark']]) {
+      const page = await open(browser, origin, hash, {theme, width, height: 844});
+      await answered(page);
+      await page.locator('[data-side=front]').click();
+      await page.locator('#view-parallel').click();
+      if (await page.locator('#view-partners').isVisible()) await page.locator('#view-partners').click();
+      const whole = (await pixels(page)).share;
+      await page.locator('#view-section').click();
+      await page.locator('.slicing select').selectOption('z');
+      const [half, place] = [(await pixels(page)).share, await page.locator('#sliced').innerText()];
+      await page.locator('#view-other').click();
+      const other = (await pixels(page)).share;
+      assert.ok(half < 0.9 * whole && other < 0.9 * whole, `${half} and ${other} of ${whole}`);
+      assert.ok(Math.abs(half + other - whole) < 0.12 * whole, `${half} and ${other} make ${whole}`);
+      await page.locator('#view-measure').click();
+      const {x, y, width: w, height} = await page.locator('.canvas canvas').boundingBox();
+      await page.locator('.slicing input').focus();
+      await page.keyboard.press('End');
+      assert.notEqual(await page.locator('#sliced').innerText(), place);
+      assert.ok((await pixels(page)).share < 0.1 * whole, 'at the end nothing is left');
+      for (const share of [0.45, 0.55]) await page.mouse.click(x + share * w, y + height / 2);
+      assert.match(await page.locator('#measured').innerText(), /Click two points/, 'there is nothing to click');
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= width, 'the page is as wide as the screen');
+      await page.locator('#view-section').click();
+      assert.ok(Math.abs((await pixels(page)).share - whole) < 0.02 * whole, 'the whole is back');
+      await page.context().close();
+    }
+  },
+
   'a model is seen from its sides, measured, fitted as it grows, and printed in light colours': async ({browser, origin}) => {
     const page = await open(browser, origin, '#/parts/shs-base-post', {theme: 'dark'});
     await answered(page);
@@ -98,6 +149,37 @@ export const checks = {
     assert.match(paper.text, /^tubecut: Part[^]*1800 mm[^]*balcony 7/);
     assert.ok(paper.right > 600 && paper.right <= 700, `the chart is as wide as the paper: ${paper.right}`);
     assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'dark');
+    clean(page);
+    await page.context().close();
+  },
+
+  'one switch sets the axis of the charts of every page: developed length, angle or time': async ({browser, origin}) => {
+    const page = await open(browser, origin, '#/pulse-schedules/table-1-on-the-five-axis-cutter');
+    await answered(page);
+    const axes = () => page.locator('[data-axis]').evaluateAll((all) => all.map((each) => [each.dataset.axis, each.getAttribute('aria-pressed')].join(' ')));
+    const under = (id) => page.locator(`#chart-${id} .under`);
+    assert.deepEqual(await axes(), ['mm false', '° false', 's true'], 'a schedule is over time until somebody chooses');
+    await page.locator('#chart-speed .plot').focus();
+    for (let i = 0; i < 8; ++i) await page.keyboard.press('Shift+ArrowRight');
+    const [time] = (await under('speed').innerText()).match(/^[\d.]+ s/);
+    await page.locator('[data-axis="°"]').focus();
+    await page.keyboard.press('Enter');
+    await under('speed').getByText(/^\d+(\.\d)?°/).first().waitFor();
+    const angle = Number.parseFloat(await under('speed').innerText());
+    assert.ok(angle > 271 && angle < 657, `${angle}`);
+    await page.locator('[data-axis=mm]').click();
+    const length = Number.parseFloat(await under('pulses').innerText());
+    assert.ok(Math.abs(length - 35 * angle * Math.PI / 180) < 0.3, `${length} mm is ${angle} deg on a tube of 70`);
+    await page.locator('[data-axis=s]').click();
+    assert.ok((await under('tip').innerText()).startsWith(time), 'the cursor stays at its point');
+    await page.locator('[data-axis="°"]').click();
+    await then(page, () => page.locator('#endpoints [data-endpoint=bevel-tables]').click());
+    assert.deepEqual(await axes(), ['mm false', '° true'], 'chosen for all pages');
+    await page.reload();
+    await answered(page);
+    assert.deepEqual(await axes(), ['mm false', '° true'], 'and remembered');
+    await then(page, () => page.evaluate(() => { location.hash = '#/pulse-schedules/square-tube-on-a-tube-table'; }));
+    assert.deepEqual(await axes(), [], 'the normal of a square tube stands still on its flats');
     clean(page);
     await page.context().close();
   },

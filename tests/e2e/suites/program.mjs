@@ -55,7 +55,8 @@ export const checks = {
 
   'a square tube turns under the torch, and leads to its pulses': async (given) => {
     const {page, text} = await previewed(given, 'shs-base-post', {width: 1280, theme: 'light'}, {pivot_length_mm: '0'});
-    for (const name of ['tabs', 'passes', 'start_deg', 'machine']) assert.equal(await page.locator(`#panel [data-option=${name}]`).count(), 0, name);
+    for (const name of ['tabs', 'passes', 'start_deg']) assert.equal(await page.locator(`#panel [data-option=${name}]`).count(), 0, name);
+    assert.equal(await page.locator('#panel [data-option=machine]').count(), 1, 'the tube table has a process table');
     const cuts = [...text.matchAll(/^\(cut: (.*)\)$/gm)].map(([, cut]) => cut);
     assert.equal(await page.locator('.timeline').getAttribute('aria-label'), `Time line: ${cuts.join(', ')}`);
     const seen = new Set();

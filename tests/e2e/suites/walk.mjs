@@ -1,6 +1,7 @@
 // A stranger's way through the console: from a blank job to a program, its file and a link, and from a node to its parts.
 import {strict as assert} from 'node:assert';
 import {answered, open, pixels, then} from '../browser.mjs';
+import {press, tabTo} from '../keyboard.mjs';
 
 const clean = (page) => {
   assert.deepEqual(page.faults, [], 'errors in the browser');
@@ -8,26 +9,6 @@ const clean = (page) => {
 };
 const pill = (page) => page.locator('#verdict .pill').innerText();
 const endpoint = (page) => page.locator('#endpoints [aria-current]').getAttribute('data-endpoint');
-
-/**
- * Presses Tab, or back, until the selector is focused; returns the number of steps. The focused
- * element is visible and has an outline.
- */
-async function tabTo(page, selector, {key = 'Tab', most = 60} = {}) {
-  for (let steps = 1; steps <= most; ++steps) {
-    await page.keyboard.press(key);
-    const there = await page.evaluate((wanted) => {
-      const node = document.activeElement;
-      const {top, bottom, left, right} = node.getBoundingClientRect();
-      const outlined = getComputedStyle(node).outlineStyle !== 'none' || node.matches('.canvas *, #views');
-      return {found: node.matches(wanted), lost: node === document.body, seen: bottom > 0 && top < innerHeight && right > 0 && left < innerWidth, outlined, what: node.outerHTML.slice(0, 90)};
-    }, selector);
-    assert.ok(there.seen && there.outlined || there.lost, `not seen to be focused: ${there.what}`);
-    if (there.found) return steps;
-  }
-  throw new Error(`no ${selector} within ${most} steps`);
-}
-const press = (page, selector, more) => tabTo(page, selector, more).then(() => page.keyboard.press('Enter'));
 
 async function byKeyboard({browser, origin}) {
   const page = await open(browser, origin);

@@ -1,4 +1,5 @@
 import {clone, rowsOf, type Json, type Row} from '../json';
+import {t} from '../language';
 
 /** A column of the members' table: a field, or one coordinate of a point. */
 export interface Column {
@@ -65,8 +66,8 @@ export const namesOf = (body: Row): Set<string> => new Set([...membersOf(body), 
 
 /** Why a member cannot have a name. */
 export function nameRefused(body: Row, index: number, to: string): string | undefined {
-  if (to === '') return 'A member needs a name.';
-  return membersOf(body)[index]?.['id'] !== to && namesOf(body).has(to) ? `The name "${to}" is taken.` : undefined;
+  if (to === '') return t('A member needs a name.');
+  return membersOf(body)[index]?.['id'] !== to && namesOf(body).has(to) ? t('The name "{name}" is taken.', {name: to}) : undefined;
 }
 
 /** Gives a member another name that is free, also in every joint and end that refers to it. */

@@ -1,4 +1,5 @@
 import {rowsOf, type Json, type Row} from '../json';
+import {t} from '../language';
 import type {Warning} from '../service';
 import {membersOf, squareName} from './members';
 
@@ -87,12 +88,12 @@ function fixesOf(warning: Warning, body: Row, at: number | undefined, other: num
   const fixes: Fix[] = [];
   if (warning.code === 'free_end' && missed !== undefined) {
     const within = Math.ceil(Number(missed) + 0.5);
-    fixes.push({name: `Raise within to ${within} mm`, apply: (to) => raise(to, within)});
+    fixes.push({name: t('Raise within to {within} mm', {within}), apply: (to) => raise(to, within)});
   }
   const straight = other !== undefined && continues(membersOf(body)[at], membersOf(body)[other]);
   if (straight && body['merge_in_line'] !== true && perPair.has(warning.code)) {
     fixes.push({
-      name: 'Merge in line',
+      name: t('Merge in line'),
       apply: (to) => {
         to['merge_in_line'] = true;
       },
@@ -100,7 +101,7 @@ function fixesOf(warning: Warning, body: Row, at: number | undefined, other: num
   }
   if (end && ['free_end', 'end_open', 'parallel_members'].includes(warning.code)) {
     const side = end === 'end' ? 'finish' : 'start';
-    fixes.push({name: 'Square the end', apply: (to) => squareEnd(to, at, side)});
+    fixes.push({name: t('Square the end'), apply: (to) => squareEnd(to, at, side)});
   }
   return fixes;
 }

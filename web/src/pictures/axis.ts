@@ -1,28 +1,71 @@
+import {signal} from '@preact/signals';
+import {later} from '../language';
 import type {Chart, Mark} from '../picture';
 import type {Warning} from '../service';
 import {choice} from '../words';
 
-/** Units of the way around a round tube. */
-export type Axis = 'mm' | '°';
+/** Units of the way around a round tube, and of the time that it takes. */
+export type Axis = 'mm' | '°' | 's';
 
 const angle = {name: 'φ', unit: '°'};
-const length = {name: 'developed length', unit: 'mm'};
+const length = {name: later('developed length'), unit: 'mm'};
 
-/** The axes that a chart can have: of a turn of known length both. */
-export const axesOf = ({turn}: Chart): Axis[] => (turn === undefined ? [] : ['mm', '°']);
+/** The axes that a chart can have: of a turn of known length both measures, of a cut over time all. */
+export const axesOf = ({turn, round}: Chart): Axis[] => (turn !== undefined ? ['mm', '°'] : round ? ['mm', '°', 's'] : []);
 
-/** The chart over the other measure of the same turn. */
-export function over(chart: Chart, axis: Axis): Chart {
-  const {turn, x, period, bands, marks} = chart;
-  if (turn === undefined || x.unit === axis) return chart;
-  const scale = axis === '°' ? 360 / turn : turn / 360;
-  return {
-    ...chart,
-    x: {...(axis === '°' ? angle : length), values: x.values.map((value) => scale * value)},
-    ...(period === undefined ? {} : {period: scale * period}),
-    ...(bands && {bands: bands.map((band) => ({...band, from: scale * band.from, to: scale * band.to}))}),
-    ...(marks && {marks: marks.map((mark) => ({...mark, x: scale * mark.x}))}),
+/** The axis of charts of which nobody has chosen one: time if they have it. */
+export const usualAxis = (charts: Chart[]): Axis => (charts.some(({round}) => round) ? 's' : 'mm');
+
+/** Values over one measure at the places that another measure has; both rise. */
+function between(from: number[], to: number[]): (value: number) => number {
+  return (value) => {
+    const next = from.findIndex((each) => each >= value);
+    if (next <= 0) return to[next < 0 ? to.length - 1 : 0] ?? value;
+    const [a, b] = [from[next - 1] as number, from[next] as number];
+    const share = b > a ? (value - a) / (b - a) : 1;
+    return (to[next - 1] as number) + share * ((to[next] as number) - (to[next - 1] as number));
   };
+}
+
+/** The chart over another measure of the same turn. */
+export function over(chart: Chart, axis: Axis): Chart {
+  const {turn, round, x, period} = chart;
+  if (!axesOf(chart).includes(axis) || x.unit === axis) return chart;
+  const name = axis === '°' ? angle : length;
+  if (round) {
+    const values = round.phi.map((phi) => (axis === '°' ? phi : phi * round.perDegree));
+    return {...moved(chart, between(x.values, values)), x: {...name, values}};
+  }
+  const scale = axis === '°' ? 360 / (turn as number) : (turn as number) / 360;
+  const across = (value: number) => scale * value;
+  return {...moved(chart, across), x: {...name, values: x.values.map(across)}, ...(period === undefined ? {} : {period: across(period)})};
+}
+
+/** Its bands and marks at other places. */
+const moved = ({bands, marks, ...chart}: Chart, to: (value: number) => number): Chart => ({
+  ...chart,
+  ...(bands && {bands: bands.map((band) => ({...band, from: to(band.from), to: to(band.to)}))}),
+  ...(marks && {marks: marks.map((mark) => ({...mark, x: to(mark.x)}))}),
+});
+
+const key = 'axis';
+/** The axis that was chosen last, of all pages; without a storage nothing is remembered. */
+export const chosenAxis = signal<Axis | undefined>(stored());
+function stored(): Axis | undefined {
+  try {
+    const kept = localStorage.getItem(key);
+    return (['mm', '°', 's'] as const).find((each) => each === kept);
+  } catch {
+    return undefined;
+  }
+}
+export function chooseAxis(axis: Axis): void {
+  chosenAxis.value = axis;
+  try {
+    localStorage.setItem(key, axis);
+  } catch {
+    /* not remembered */
+  }
 }
 
 /** Where a warning says that it applies: on the way round, at an angle of a groove, or in periods. */

@@ -1,9 +1,10 @@
 import {isRow, type Json, type Row} from '../json';
+import {later, many, t} from '../language';
 import {column, type Band, type Chart, type CutTube, type Mark, type Picture, type Solid} from '../picture';
 import type {Answer} from '../service';
 import {choice, number, sentence, term, type Term, withUnit} from '../words';
 import type {Context} from './context';
-import {at, figure, plural, readings} from './facts';
+import {at, figure, readings} from './facts';
 import {gapChart, gapFigures, gapsOf, gapScale} from './gaps';
 import {bounds, partner, radians, tube, type Sizes} from './geometry';
 import {isSection, sectionCurves, sectionTable} from './section';
@@ -20,7 +21,7 @@ export async function joint(request: Row, context: Context): Promise<Joint> {
   if (isRow(request['target'])) {
     const {outer, wall} = tube(request['target'], context.sizes);
     const cutters = (request['cutters'] as Row[] | undefined) ?? [];
-    return {outer, wall, cutters, names: cutters.map((each, i) => String(each['id'] ?? `partner ${i + 1}`))};
+    return {outer, wall, cutters, names: cutters.map((each, i) => String(each['id'] ?? t('partner {n}', {n: i + 1})))};
   }
   const node = request['node'] as Row;
   const members = node['members'] as Row[];
@@ -71,36 +72,36 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
     {
       ...shared,
       id: 'bevel',
-      title: 'Cutting angle B',
+      title: t('Cutting angle B'),
       unit: '°',
-      x: {name: 'developed length', unit: 'mm', values: developed},
+      x: {name: later('developed length'), unit: 'mm', values: developed},
       period: whole,
       height: 205,
       series: [
-        {name: 'before', about: 'As the groove requires it.', values: raw, tone: 'before', dash: [5, 4]},
-        {name: 'least that clears', about: 'With less, a partner would enter the wall.', values: required, tone: 'floor', width: 1},
-        {name: 'after', about: 'As the torch follows it.', values: b, tone: 'after', width: 2.2},
+        {name: t('before'), about: t('As the groove requires it.'), values: raw, tone: 'before', dash: [5, 4]},
+        {name: t('least that clears'), about: t('With less, a partner would enter the wall.'), values: required, tone: 'floor', width: 1},
+        {name: t('after'), about: t('As the torch follows it.'), values: b, tone: 'after', width: 2.2},
       ],
       bands: bandsOf(result, along),
       marks: mutationsOf(result, along, phi, raw),
       limits: [
-        {y: Number(torch['min_deg'] ?? NaN), text: 'torch limit'},
-        {y: Number(torch['max_deg'] ?? NaN), text: 'torch limit'},
+        {y: Number(torch['min_deg'] ?? NaN), text: t('torch limit')},
+        {y: Number(torch['max_deg'] ?? NaN), text: t('torch limit')},
       ].filter((l) => Number.isFinite(l.y)),
     },
     {
       ...shared,
       id: 'height',
-      title: 'Height z of the cut',
+      title: t('Height z of the cut'),
       unit: 'mm',
       x: {name: 'φ', unit: '°', values: phi},
       period: 360,
       height: 150,
       series: [
-        {name: 'outer edge', values: z('z_outer_mm'), tone: 'outer', width: 2},
-        {name: 'inner edge', values: z('z_inner_mm'), tone: 'inner', width: 1.5, dash: [5, 4]},
+        {name: t('outer edge'), values: z('z_outer_mm'), tone: 'outer', width: 2},
+        {name: t('inner edge'), values: z('z_inner_mm'), tone: 'inner', width: 1.5, dash: [5, 4]},
       ],
-      marks: events.map((event) => ({x: Number(event['phi_deg']), tone: 'mark', text: 'junction'})),
+      marks: events.map((event) => ({x: Number(event['phi_deg']), tone: 'mark', text: t('junction')})),
     },
     wrapChart(phi, z('z_outer_mm'), z('z_inner_mm'), partners, given.outer / 2, link, given.names),
   ];
@@ -113,15 +114,17 @@ export function tablePicture(request: Row, result: Row, given: Joint, sizes: Siz
     figures: gaps ? gapFigures(result) : figuresOf(result, events.length, b, raw),
     tables: tablesOf(result, given.names),
     readout: (i) => readout(points, given.names, i),
-    said: `${sentence(rangeOf(b))}${Number.isFinite(Number(torch['max_deg'])) ? `, torch limit ${withUnit(torchLimit(torch, b), '°')}` : ''}.`,
+    said: Number.isFinite(Number(torch['max_deg']))
+      ? t('{range}, torch limit {limit}.', {range: sentence(rangeOf(b)), limit: withUnit(torchLimit(torch, b), '°')})
+      : t('{text}.', {text: sentence(rangeOf(b))}),
   };
 }
 
 /** "B from 18.7 to 72.6°" */
 export function rangeOf(b: number[]): string {
   const [low, high] = bounds(b).map((each) => number(each, '°')) as [string, string];
-  if (low === high) return low === '0' ? 'square to the wall' : `B is ${low}° all round`;
-  return `B from ${low} to ${high}°`;
+  if (low === high) return low === '0' ? t('square to the wall') : t('B is {b}° all round', {b: low});
+  return t('B from {low} to {high}°', {low, high});
 }
 
 /** The end of the torch's range that the cut is nearer to. */
@@ -142,18 +145,18 @@ function wrapChart(phi: number[], outer: number[], inner: number[], partners: nu
   const scale = radius * radians;
   return {
     id: 'wrap',
-    title: 'Wrap',
+    title: t('Wrap'),
     link,
     unit: 'mm',
     partners,
     partnerNames: names,
-    x: {name: 'round the outside, mm for mm', unit: 'mm', values: phi.map((p) => p * scale)},
+    x: {name: later('round the outside, mm for mm'), unit: 'mm', values: phi.map((p) => p * scale)},
     period: 360 * scale,
     series: [
-      {name: 'outside', values: outer, tone: 'outer', width: 2},
-      {name: 'inside', values: inner, tone: 'inner', width: 1, dash: [4, 3]},
+      {name: t('outside'), values: outer, tone: 'outer', width: 2},
+      {name: t('inside'), values: inner, tone: 'inner', width: 1, dash: [4, 3]},
     ],
-    wrap: {lines: [0, 90, 180, 270, 360].map((p) => ({x: p * scale, text: p === 360 ? '' : p === 0 ? 'φ 0° seam' : `${p}°`}))},
+    wrap: {lines: [0, 90, 180, 270, 360].map((p) => ({x: p * scale, text: p === 360 ? '' : p === 0 ? t('φ 0° seam') : `${p}°`}))},
   };
 }
 
@@ -219,8 +222,8 @@ function bandsOf(result: Row, along: (phi: number) => number): Band[] {
     else if (from <= to) bands.push({from, to, tone, text});
     else bands.push({from, to: along(360), tone, text}, {from: 0, to, tone, text}); // across the seam
   };
-  for (const row of (result['windows'] ?? []) as Row[]) span(row, 'window', 'smoothed window');
-  for (const row of (result['torch_binds'] ?? []) as Row[]) span(row, 'bad', 'torch range binds');
+  for (const row of (result['windows'] ?? []) as Row[]) span(row, 'window', t('smoothed window'));
+  for (const row of (result['torch_binds'] ?? []) as Row[]) span(row, 'bad', t('torch range binds'));
   return bands;
 }
 
@@ -228,7 +231,7 @@ function mutationsOf(result: Row, along: (phi: number) => number, phi: number[],
   return ((result['mutations'] ?? []) as Row[]).map((row) => {
     const at = Number(row['phi_deg']);
     const index = phi.findIndex((p) => p >= at - 1e-9);
-    return {x: along(at), y: raw[Math.max(0, index)] ?? 0, tone: 'mark', text: 'mutation'};
+    return {x: along(at), y: raw[Math.max(0, index)] ?? 0, tone: 'mark', text: t('mutation')};
   });
 }
 
@@ -236,12 +239,12 @@ function figuresOf(result: Row, junctions: number, b: number[], raw: number[]): 
   const [low, high] = bounds(b);
   const extra = b.reduce((most, angle, i) => Math.max(most, Math.abs(angle - (raw[i] as number))), 0);
   return [
-    {name: 'least B', value: number(low, '°'), unit: '°', about: 'Of the finished cut.'},
-    {name: 'greatest B', value: number(high, '°'), unit: '°', about: 'Of the finished cut.'},
-    {name: 'B moved by at most', value: number(extra, '°'), unit: '°', about: 'By smoothing, between before and after.'},
-    {name: 'mutations', value: String(((result['mutations'] ?? []) as Row[]).length), about: 'Steps of B before smoothing.'},
-    {name: 'junctions', value: String(junctions), about: 'Where the cut passes from one partner to the next.'},
-    {name: 'cut length', value: number(Number(result['length_mm']), 'mm'), unit: 'mm', about: 'Along the cut.'},
+    {name: t('least B'), value: number(low, '°'), unit: '°', about: t('Of the finished cut.')},
+    {name: t('greatest B'), value: number(high, '°'), unit: '°', about: t('Of the finished cut.')},
+    {name: t('B moved by at most'), value: number(extra, '°'), unit: '°', about: t('By smoothing, between before and after.')},
+    {name: t('mutations'), value: String(((result['mutations'] ?? []) as Row[]).length), about: t('Steps of B before smoothing.')},
+    {name: t('junctions'), value: String(junctions), about: t('Where the cut passes from one partner to the next.')},
+    {name: t('cut length'), value: number(Number(result['length_mm']), 'mm'), unit: 'mm', about: t('Along the cut.')},
   ];
 }
 
@@ -250,7 +253,7 @@ function tablesOf(result: Row, names: string[]): Picture['tables'] {
   const mutations = (result['mutations'] ?? []) as Row[];
   if (mutations.length) {
     tables.push({
-      title: 'Mutations',
+      title: t('Mutations'),
       head: [term('phi_deg'), term('step_deg')],
       rows: mutations.map((row) => [number(Number(row['phi_deg']), '°'), number(Number(row['step_deg']), '°')]),
     });
@@ -263,8 +266,8 @@ function tablesOf(result: Row, names: string[]): Picture['tables'] {
 function eventTable(events: Row[], names: string[]) {
   const name = (value: Json | undefined) => names[Number(value)] ?? String(value);
   return {
-    title: 'Junctions',
-    head: ['kind', 'wall', term('phi_deg'), term('z_mm'), 'from', 'to'],
+    title: t('Junctions'),
+    head: [t('kind'), t('wall'), term('phi_deg'), term('z_mm'), t('from'), t('to')],
     rows: events.map((row) => [
       choice(row['kind']),
       choice(row['surface']),
@@ -281,7 +284,7 @@ function readout(points: Row, names: string[], i: number): [Term, string][] {
   const cutter = column(points['cutter']);
   return [
     ...of('phi_deg', 'developed_mm'),
-    ['partner', names[cutter[i % cutter.length] as number] ?? ''],
+    [t('partner'), names[cutter[i % cutter.length] as number] ?? ''],
     ...of('b_raw_deg', 'b_deg', 'dihedral_deg', 'z_outer_mm', 'z_inner_mm', 'gap_mm', 'beam_mm', 'gap_outer_mm', 'gap_inner_mm'),
   ];
 }
@@ -318,7 +321,7 @@ export async function intersection(_: Row, answer: Answer, context: Context): Pr
     charts: [
       {
         id: 'height',
-        title: 'Height z of the cut',
+        title: t('Height z of the cut'),
         link: 'cut',
         unit: 'mm',
         x: {name: 'φ', unit: '°', values: phi},
@@ -327,21 +330,24 @@ export async function intersection(_: Row, answer: Answer, context: Context): Pr
         partnerNames: given.names,
         height: 240,
         series: [
-          {name: 'outside', values: zOuter, tone: 'outer', width: 2},
-          {name: 'inside', values: zInner, tone: 'inner', dash: [5, 4]},
+          {name: t('outside'), values: zOuter, tone: 'outer', width: 2},
+          {name: t('inside'), values: zInner, tone: 'inner', dash: [5, 4]},
         ],
-        marks: events.map((e) => ({x: Number(e['phi_deg']), tone: 'mark', text: 'junction'})),
+        marks: events.map((e) => ({x: Number(e['phi_deg']), tone: 'mark', text: t('junction')})),
       },
       wrapChart(phi, zOuter, zInner, partners, given.outer / 2, 'cut', given.names),
     ],
-    figures: profiles.map((p) => ({...figure('length_mm', p['length_mm']), name: `length, ${choice(p['surface'])} edge`})),
+    figures: profiles.map((p) => ({...figure('length_mm', p['length_mm']), name: t('length, {surface} edge', {surface: choice(p['surface'])})})),
     tables: events.length ? [eventTable(events, given.names)] : [],
-    said: `The cut meets ${plural(new Set(partners).size, 'partner')} and has ${plural(events.length, 'junction')}.`,
+    said: t('The cut meets {partners} and has {junctions}.', {
+      partners: many(new Set(partners).size, '{n} partner', '{n} partners'),
+      junctions: many(events.length, '{n} junction', '{n} junctions'),
+    }),
     readout: (i) => [
       ['φ', at({phi_deg: phi}, 'phi_deg', i)],
-      ['z outside', at({z_mm: zOuter}, 'z_mm', i)],
-      ['z inside', at({z_mm: zInner}, 'z_mm', i)],
-      ['partner', given.names[partners[i % partners.length] as number] ?? ''],
+      [t('z outside'), at({z_mm: zOuter}, 'z_mm', i)],
+      [t('z inside'), at({z_mm: zInner}, 'z_mm', i)],
+      [t('partner'), given.names[partners[i % partners.length] as number] ?? ''],
     ],
   };
 }

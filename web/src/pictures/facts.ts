@@ -1,16 +1,21 @@
+import {caption} from '../captions';
 import {isRow, type Json, type Row} from '../json';
+import {t} from '../language';
 import type {Figure, Picture, Table} from '../picture';
 import {column} from '../picture';
 import {shownUnit} from '../units';
 import {about, choice, label, measured, sentence, shown, type Term, unit} from '../words';
 
+/** Fields with captions of the service in them. */
+const captions = new Set(['name', 'measured_from', 'changes_with', 'what', 'tool']);
+
 /** A value of an answer as people read it, without its unit. */
 export function text(key: string, value: Json | undefined): string {
   if (typeof value === 'number') return shown(key, value);
-  if (typeof value === 'boolean') return value ? 'yes' : 'no';
+  if (typeof value === 'boolean') return value ? t('yes') : t('no');
   if (Array.isArray(value)) return value.map((each) => text(key, each)).join(', ');
   if (value === undefined || value === null) return '';
-  if (!isRow(value)) return choice(value);
+  if (!isRow(value)) return captions.has(key) ? caption(choice(value)) : choice(value);
   return Object.entries(value)
     .map(([name, each]) => (typeof each === 'number' ? `${label(name)} ${measured(name, each)}` : `${label(name)} ${text(name, each)}`))
     .join(', ');
@@ -45,5 +50,4 @@ export function at(rows: Row, key: string, i: number): string {
   return measured(key, values[i % values.length] as number);
 }
 
-export const plural = (count: number, one: string, many = `${one}s`) => `${count} ${count === 1 ? one : many}`;
 export type Told = Pick<Picture, 'figures' | 'tables' | 'readout' | 'said'>;

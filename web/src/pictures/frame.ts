@@ -1,10 +1,11 @@
 import {rowsOf, type Json, type Row} from '../json';
+import {many, t} from '../language';
 import {heightsOf, reachOf, type Assembly, type Frame, type MemberPart, type Partner, type Picture, type Solid, type Table, type Vector} from '../picture';
 import type {Answer} from '../service';
 import {shownUnit} from '../units';
-import {choice, term, withUnit} from '../words';
+import {choice, sentences, term, withUnit} from '../words';
 import type {Context} from './context';
-import {figures, plural, text} from './facts';
+import {figures, text} from './facts';
 import {itemsOf, lightsOf, size, standings, told, toneOf, type Told} from './frame_items';
 import {add, bounds, dot, frame, partner, placed, squareEnd, tube, unitVector, vector, type Sizes} from './geometry';
 import {finished} from './part';
@@ -19,7 +20,11 @@ export async function wholeFrame(_: Row, answer: Answer, context: Context): Prom
   const {result, request} = answer;
   const totals = result['totals'] as Row;
   const notCut = rowsOf(result['not_cut']);
-  const said = [plural(given.members.length, 'member'), plural(given.cuts.length, 'different part'), plural(given.joints.length, 'joint')].join(', ');
+  const said = [
+    many(given.members.length, '{n} member', '{n} members'),
+    many(given.cuts.length, '{n} different part', '{n} different parts'),
+    many(given.joints.length, '{n} joint', '{n} joints'),
+  ].join(t(', '));
   return {
     solid: solidOf(given, rowsOf(request['others']), context.sizes, said),
     charts: [],
@@ -28,7 +33,7 @@ export async function wholeFrame(_: Row, answer: Answer, context: Context): Prom
       Object.keys(totals).filter((key) => key !== 'made' || totals['made'] !== totals['members']),
       'totals',
     ),
-    said: `${said}; ${withUnit(Number(totals['mass_kg']), 'kg')} in all.`,
+    said: t('{text}; {mass} in all.', {text: said, mass: withUnit(Number(totals['mass_kg']), 'kg')}),
     inspected: {link, lists: itemsOf(given)},
     tables: [cutList(given.cuts), ...(notCut.length ? [notCutTable(notCut)] : [])],
   };
@@ -39,11 +44,11 @@ function cutList(cuts: Row[]): Table {
   const head = ['part', 'count'].map((key) => term(key, 'cut_list'));
   return {
     id: 'cut_list',
-    title: 'Cut list',
+    title: t('Cut list'),
     names: true,
     head: [
       ...head,
-      {text: `size ${shownUnit('mm')}`, about: 'Outer diameter × wall, or height × width × wall.'},
+      {text: `${t('size')} ${shownUnit('mm')}`, about: t('Outer diameter × wall, or height × width × wall.')},
       ...lengths.map((key) => term(key, 'cut_list')),
       term('verdict'),
     ],
@@ -59,7 +64,7 @@ function cutList(cuts: Row[]): Table {
 
 const notCutTable = (rows: Row[]): Table => ({
   id: 'not_cut',
-  title: 'Not cut',
+  title: t('Not cut'),
   names: true,
   head: ['id', 'end', 'why'].map((key) => term(key)),
   rows: rows.map((row) => [String(row['id']), ...['end', 'why'].map((key) => text(key, row[key]))]),
@@ -83,7 +88,10 @@ function solidOf(given: Told, others: Row[], sizes: Sizes, said: string): Solid 
     assembly,
     partners: partners(given, lines, others, sizes),
     legend: there.map((standing) => ({tone: toneOf(standing), text: choice(standing)})),
-    told: `${said}. ${there.map((standing) => `${choice(standing)}: ${given.standing.filter((each) => each === standing).length}`).join(', ')}`,
+    told: sentences(
+      t('{text}.', {text: said}),
+      there.map((standing) => `${choice(standing)}: ${given.standing.filter((each) => each === standing).length}`).join(', '),
+    ),
     centre,
     size: Math.hypot(...extent),
     eye: eyeOn(extent),

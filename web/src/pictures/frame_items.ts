@@ -1,9 +1,10 @@
 import {said as complaint} from '../hint';
 import {isRow, rowsOf, type Json, type Row} from '../json';
+import {later, many, t} from '../language';
 import type {Facts, Inspected, Item} from '../picture';
 import type {Answer, Issue, Warning} from '../service';
-import {choice, measured, sentence} from '../words';
-import {figures, plural, text} from './facts';
+import {choice, measured, sentence, sentences} from '../words';
+import {figures, text} from './facts';
 
 /** State of a member: its part's verdict, or the frame's if that is worse. From good to bad. */
 export const standings = ['ok', 'review', 'reject', 'none'] as const;
@@ -45,9 +46,9 @@ export const size = (row: Row) =>
 export function itemsOf(given: Told): Inspected['lists'] {
   const place = new Map(given.members.map((member, i) => [String(member['id']), i]));
   return [
-    {id: 'members', title: 'Members', items: given.members.map((_, i) => memberItem(given, i))},
-    {id: 'joints', title: 'Joints', items: given.joints.map((_, i) => jointItem(given, i, place))},
-    {id: 'parts', title: 'Parts', items: given.cuts.map((_, i) => partItem(given, i, place))},
+    {id: 'members', title: t('Members'), items: given.members.map((_, i) => memberItem(given, i))},
+    {id: 'joints', title: t('Joints'), items: given.joints.map((_, i) => jointItem(given, i, place))},
+    {id: 'parts', title: t('Parts'), items: given.cuts.map((_, i) => partItem(given, i, place))},
   ];
 }
 
@@ -79,7 +80,7 @@ function memberItem(given: Told, i: number): Item {
       const own = partFacts(given, at);
       return {
         ...own,
-        said: [...own.said, ...open.map((row) => `${sentence(row['end'] ? choice(row['end']) : 'it')}: ${choice(row['why'])}.`)],
+        said: [...own.said, ...open.map((row) => t('{part}: {text}.', {part: sentence(row['end'] ? choice(row['end']) : t('it')), text: choice(row['why'])}))],
         warnings: [...about(answer.warnings, `/members/${i}`), ...own.warnings],
         leads: joints.flatMap((joint, j) => (joint['branch'] === id || joint['chord'] === id ? [{name: joined(joint), to: members.length + j}] : [])),
       };
@@ -92,7 +93,7 @@ function partItem(given: Told, at: number, place: Map<string, number>): Item {
   const leads = (cut['members'] as string[]).map((name) => ({name, to: place.get(name) as number}));
   return {
     name: String(cut['part']),
-    detail: `${dimensions(cut)}, ${plural(Number(cut['count']), 'piece')}`,
+    detail: [dimensions(cut), many(Number(cut['count']), '{n} piece', '{n} pieces')].join(t(', ')),
     mark: mark(String(cut['verdict'])),
     facts: () => ({...partFacts(given, at), leads}),
   };
@@ -115,32 +116,43 @@ function partFacts(given: Told, at: number): Facts {
     figures: figures(lengths, ['long_mm', 'short_mm', 'blank_mm', 'girth_mm', 'weld_mm', 'mass_kg'], 'cut_list'),
     warnings,
     leads: [],
-    ...(isRow(request) ? {opens: {name: made ? 'Open this part' : 'Open its request', endpoint: 'parts', body: request}} : {}),
+    ...(isRow(request) ? {opens: {name: made ? t('Open this part') : t('Open its request'), endpoint: 'parts', body: request}} : {}),
   };
 }
 
 /** "9 alike, made as P0. Its own verdict: ok." */
 function partSaid(cut: Row, made: Answer | undefined): string {
-  const alike = cut['count'] === 1 ? 'The only one of its kind' : `${cut['count']} alike, made as ${cut['part']}`;
-  return `${alike}. ${made ? `Its own verdict: ${choice(made.verdict.status)}.` : 'It cannot be cut as requested.'}`;
+  return sentences(
+    cut['count'] === 1 ? t('The only one of its kind.') : t('{n} alike, made as {part}.', {n: Number(cut['count']), part: String(cut['part'])}),
+    made ? t('Its own verdict: {verdict}.', {verdict: choice(made.verdict.status)}) : t('It cannot be cut as requested.'),
+  );
 }
 
 const problemSaid = (problem: Json | undefined) => (isRow(problem) ? rowsOf(problem['errors']).map((issue) => complaint(issue as unknown as Issue)) : []);
 
 const about = (warnings: Warning[], pointer: string) => warnings.filter((each) => each.pointer === pointer || each.pointer.startsWith(`${pointer}/`));
 
-const words: Record<string, string> = {set_on: 'on', set_in: 'in', through: 'through'};
+const joinings: Record<string, string> = {
+  set_on: later('{branch} on {chord}'),
+  set_in: later('{branch} in {chord}'),
+  through: later('{branch} through {chord}'),
+};
 /** "P0 on top", "left with top" */
-const joined = (joint: Row) => `${joint['branch']} ${words[String(joint['kind'])] ?? 'with'} ${joint['chord']}`;
+const joined = (joint: Row) =>
+  t(joinings[String(joint['kind'])] ?? later('{branch} with {chord}'), {branch: String(joint['branch']), chord: String(joint['chord'])});
 
 function jointItem(given: Told, j: number, place: Map<string, number>): Item {
   const joint = given.joints[j] as Row;
   const sides = [joint['branch'], joint['chord']].map(String);
   return {
     name: joined(joint),
-    detail: `${choice(joint['kind'])}, gap ${measured('gap_mm', Number(joint['gap_mm']))}`,
+    detail: t('{kind}, gap {gap}', {kind: choice(joint['kind']), gap: measured('gap_mm', Number(joint['gap_mm']))}),
     facts: () => ({
-      said: [`${sentence(choice(joint['kind']))}; ${joint['stated'] ? 'stated by the request' : 'found by nearness'}.`],
+      said: [
+        joint['stated']
+          ? t('{kind}; stated by the request.', {kind: sentence(choice(joint['kind']))})
+          : t('{kind}; found by nearness.', {kind: sentence(choice(joint['kind']))}),
+      ],
       figures: [...figures(joint, ['gap_mm', 'depth_mm', 'weld_mm', 'groove_mm3', 'hole'], 'joints'), ...fitUp(joint['fit_up'])],
       warnings: joint['stated'] ? about(given.answer.warnings, `/joints/${j}`) : [],
       leads: sides.flatMap((name) => (place.has(name) ? [{name, to: place.get(name) as number}] : [])),

@@ -1,4 +1,5 @@
 import type {Row} from '../json';
+import {t} from '../language';
 import {number, withUnit} from '../words';
 import {column, type Chart, type Gaps, type Picture} from '../picture';
 
@@ -9,7 +10,7 @@ export function gapsOf(points: Row): Gaps | undefined {
   return {inner, outer, most: [...inner, ...outer].reduce((a, b) => Math.max(a, b), 0)};
 }
 
-export const gapScale = (most: number): [string, string] => ['gap 0', withUnit(most, 'mm')];
+export const gapScale = (most: number): [string, string] => [t('gap 0'), withUnit(most, 'mm')];
 
 const overPhi = (points: Row) => ({x: {name: 'φ', unit: '°', values: column(points['phi_deg'])}, period: 360});
 
@@ -23,16 +24,16 @@ export function gapChart(
   return {
     ...shared,
     id: 'gap',
-    title: 'Gap to the partner',
+    title: t('Gap to the partner'),
     unit: 'mm',
     ...over,
     height: 205,
     zero: true,
     series: [
-      {name: 'outside', values: of('gap_outer_mm'), tone: 'after', width: 2.2},
-      {name: 'inside', values: of('gap_inner_mm'), tone: 'inner', width: 1.5},
-      {name: 'outside with a bevel', values: of('bevelled_gap_outer_mm'), tone: 'floor', dash: [5, 4]},
-      {name: 'inside with a bevel', values: of('bevelled_gap_inner_mm'), tone: 'before', dash: [2, 3]},
+      {name: t('outside'), values: of('gap_outer_mm'), tone: 'after', width: 2.2},
+      {name: t('inside'), values: of('gap_inner_mm'), tone: 'inner', width: 1.5},
+      {name: t('outside with a bevel'), values: of('bevelled_gap_outer_mm'), tone: 'floor', dash: [5, 4]},
+      {name: t('inside with a bevel'), values: of('bevelled_gap_inner_mm'), tone: 'before', dash: [2, 3]},
     ],
   };
 }
@@ -43,11 +44,11 @@ export function gapFigures(result: Row): Picture['figures'] {
   const greatest = (name: string) => number(Number((laser[name] as Row)['greatest_mm']), 'mm');
   const tongue = laser['tongue'] as Row | undefined;
   return [
-    {name: 'greatest gap', value: greatest('gap'), unit: 'mm'},
-    {name: 'with a bevel', value: greatest('bevelled_gap'), unit: 'mm'},
-    {name: 'reach of the cut', value: number(Number(laser['reach_mm']), 'mm'), unit: 'mm'},
-    ...(tongue ? [{name: 'narrowest tongue', value: number(Number(tongue['width_mm']), 'mm'), unit: 'mm'}] : []),
-    {name: 'cut length', value: number(Number(result['length_mm']), 'mm'), unit: 'mm'},
+    {name: t('greatest gap'), value: greatest('gap'), unit: 'mm'},
+    {name: t('with a bevel'), value: greatest('bevelled_gap'), unit: 'mm'},
+    {name: t('reach of the cut'), value: number(Number(laser['reach_mm']), 'mm'), unit: 'mm'},
+    ...(tongue ? [{name: t('narrowest tongue'), value: number(Number(tongue['width_mm']), 'mm'), unit: 'mm'}] : []),
+    {name: t('cut length'), value: number(Number(result['length_mm']), 'mm'), unit: 'mm'},
   ];
 }
 
@@ -61,9 +62,9 @@ export function webFigures(result: Row): Picture['figures'] {
     return found ? [{name: text, value: number(Number(found[key]), 'mm'), unit: 'mm'}] : [];
   };
   return [
-    ...(ends.length ? [{name: 'greatest gap', value: number(gap, 'mm'), unit: 'mm'}] : []),
-    ...of('web', 'width_mm', 'narrowest web'),
-    ...of('hole_to_end', 'width_mm', 'hole to end'),
-    ...of('seam_to_hole', 'girth_mm', 'seam to hole'),
+    ...(ends.length ? [{name: t('greatest gap'), value: number(gap, 'mm'), unit: 'mm'}] : []),
+    ...of('web', 'width_mm', t('narrowest web')),
+    ...of('hole_to_end', 'width_mm', t('hole to end')),
+    ...of('seam_to_hole', 'girth_mm', t('seam to hole')),
   ];
 }

@@ -87,6 +87,23 @@ export const placed = (to: Frame | undefined, p: Vector): Vector => (to ? add(ad
 
 export const onTube = (radius: number, phi: number, z: number): Vector => [radius * Math.cos(phi * radians), radius * Math.sin(phi * radians), z];
 
+/**
+ * Returns the strokes of all texts of a part in space. `at` places a point of the outside; no chord
+ * goes further round than `step` mm.
+ */
+export function strokesOf(result: Row, step: number, at: (girth: number, z: number) => Vector): Vector[][] {
+  const marks = (Array.isArray(result['marks']) ? result['marks'] : []).filter(isRow);
+  const strokes = marks.flatMap(({lettering}) => (isRow(lettering) ? (lettering['strokes'] as Row[]) : []));
+  return strokes.map((stroke) => {
+    const [girth, z] = [stroke['girth_mm'], stroke['z_mm']] as [number[], number[]];
+    return girth.flatMap((to, i): Vector[] => {
+      const [from, low] = [girth[i - 1] ?? to, z[i - 1] ?? (z[i] as number)];
+      const parts = i === 0 ? 1 : Math.max(1, Math.ceil(Math.abs(to - from) / step));
+      return Array.from({length: parts}, (_, k) => (k + 1) / parts).map((share) => at(from + share * (to - from), low + share * ((z[i] as number) - low)));
+    });
+  });
+}
+
 export function bounds(values: number[]): [number, number] {
   return [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
 }

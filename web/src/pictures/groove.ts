@@ -1,8 +1,9 @@
 import {isRow, type Json, type Row} from '../json';
+import {many, t} from '../language';
 import {column, type Chart, type Picture, type Ribbon, type Section, type Solid, type Table, type Vector} from '../picture';
 import type {Answer} from '../service';
 import {about, label, measured, number, term, unit, withUnit} from '../words';
-import {facts, figure, figures, plural, readings, text} from './facts';
+import {facts, figure, figures, readings, text} from './facts';
 import {without, type Context} from './context';
 import {bounds, partner, tube} from './geometry';
 import {axesBefore, axesOf, coneTool, sectionOf, type Curves} from './mill';
@@ -31,10 +32,10 @@ export async function groove(_: Row, answer: Answer, context: Context): Promise<
     solid: solid(request, context, curves),
     section: named(sectionOf('groove', curves, omega), sections),
     charts: [
-      chart('height', 'Height of the groove', [['height_mm', 'after']], {zero: true}),
+      chart('height', t('Height of the groove'), [['height_mm', 'after']], {zero: true}),
       chart(
         'area',
-        'Areas of the section',
+        t('Areas of the section'),
         [
           ['area_a_mm2', 'series-0'],
           ['area_b_mm2', 'series-1'],
@@ -44,11 +45,15 @@ export async function groove(_: Row, answer: Answer, context: Context): Promise<
         ],
         {zero: true},
       ),
-      chart('angle', 'Groove angle', [['groove_angle_deg', 'after']], {height: 160}),
-      chart('twist', 'Twist of the ruling', [['twist_deg', 'outer']], {height: 150, zero: true}),
+      chart('angle', t('Groove angle'), [['groove_angle_deg', 'after']], {height: 160}),
+      chart('twist', t('Twist of the ruling'), [['twist_deg', 'outer']], {height: 150, zero: true}),
     ].filter((each) => each.series.length > 0),
     figures: figures(result, ['filler_area_mm2', 'height_min_mm', 'height_max_mm', 'weld_length_mm', 'filler_volume_mm3']),
-    said: `Filler ${measured('filler_area_mm2', Number(result['filler_area_mm2']))} in every section; the groove is ${measured('height_min_mm', Number(result['height_min_mm']))} to ${measured('height_max_mm', Number(result['height_max_mm']))} high.`,
+    said: t('Filler {area} in every section; the groove is {low} to {high} high.', {
+      area: measured('filler_area_mm2', Number(result['filler_area_mm2'])),
+      low: measured('height_min_mm', Number(result['height_min_mm'])),
+      high: measured('height_max_mm', Number(result['height_max_mm'])),
+    }),
     readout: (i) => readings(sections, i, Object.keys(sections).slice(0, 10), 'sections'),
   };
 }
@@ -71,7 +76,7 @@ function named(section: Section, sections: Row): Section {
         title,
         lines: [...lines, {points: points.map(({at}) => at), tone: 'after'}],
         points,
-        note: `areas ${areas.map(([name, values]) => `${name} ${number(values[i] as number, 'mm²')}`).join(', ')} mm²`,
+        note: t('areas {areas} mm²', {areas: areas.map(([name, values]) => `${name} ${number(values[i] as number, 'mm²')}`).join(', ')}),
       };
     },
   };
@@ -166,7 +171,7 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
     charts: [
       chart(
         'overcut',
-        'Overcut and undercut, before and after',
+        t('Overcut and undercut, before and after'),
         [
           ['overcut_before_mm', 'before', true],
           ['undercut_before_mm', 'floor', true],
@@ -175,14 +180,14 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
         ],
         {zero: true, height: 220},
       ),
-      chart('xz', 'X and Z of the mill', [
+      chart('xz', t('X and Z of the mill'), [
         ['x_mm', 'outer'],
         ['z_mm', 'inner'],
       ]),
-      chart('b', 'B of the mill', [['b_deg', 'after']], {height: 150}),
+      chart('b', t('B of the mill'), [['b_deg', 'after']], {height: 150}),
       chart(
         'correction',
-        'Correction found',
+        t('Correction found'),
         [
           ['dz_mm', 'series-2'],
           ['db_deg', 'series-3'],
@@ -191,11 +196,15 @@ export async function millPath(_: Row, answer: Answer, context: Context): Promis
       ),
     ],
     figures: [
-      {name: 'positions', value: String(x.values.length)},
+      {name: t('positions'), value: String(x.values.length)},
       figure('qualified', result['qualified']),
       ...figures(result['swept'] as Row, ['flank_min_mm', 'flank_max_mm', 'stock_left_max_mm', 'root_face_min_mm']),
     ],
-    said: `${plural(x.values.length, 'position')}; overcut at most ${withUnit(most(p['overcut_mm']), 'mm')}, undercut ${withUnit(most(p['undercut_mm']), 'mm')}.`,
+    said: t('{positions}; overcut at most {overcut}, undercut {undercut}.', {
+      positions: many(x.values.length, '{n} position', '{n} positions'),
+      overcut: withUnit(most(p['overcut_mm']), 'mm'),
+      undercut: withUnit(most(p['undercut_mm']), 'mm'),
+    }),
     tables: [facts('swept', result['swept'] as Row), ...probed(result['probe'])],
     readout: (i) =>
       readings(p, i, ['omega_deg', 'c_deg', 'x_mm', 'z_mm', 'b_deg', 'overcut_before_mm', 'overcut_mm', 'undercut_mm', 'certificate_mm'], 'positions'),
@@ -207,11 +216,11 @@ function probed(probe: Json | undefined): Table[] {
   if (!isRow(probe)) return [];
   const keys = ['omega_deg', 'ruling_deg', 'v', 'distance_before_mm', 'distance_mm'];
   const row = (name: string, place: Row) => [name, ...keys.map((key) => text(key, place[key]))];
-  const asked = (probe['points'] as Row[]).map((place, i) => row(`point ${i + 1}`, place));
+  const asked = (probe['points'] as Row[]).map((place, i) => row(t('point {n}', {n: i + 1}), place));
   const deepest = ['overcut_before', 'undercut_before'].map((key) => {
     const {distance_mm: distance, ...place} = probe[key] as Row;
     return row(label(key), {...place, distance_before_mm: distance as Json});
   });
   const after = ['overcut', 'undercut'].map((key) => row(label(key), probe[key] as Row));
-  return [{title: 'Distance from the mill', head: ['', ...keys.map((key) => term(key))], rows: [...asked, ...deepest, ...after]}];
+  return [{title: t('Distance from the mill'), head: ['', ...keys.map((key) => term(key))], rows: [...asked, ...deepest, ...after]}];
 }

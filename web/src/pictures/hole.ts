@@ -1,7 +1,8 @@
 import type {Json, Row} from '../json';
+import {later, t} from '../language';
 import {column, type Chart, type HoledTube, type Picture} from '../picture';
 import type {Answer} from '../service';
-import {choice, number, sentence} from '../words';
+import {choice, number, sentence, sentences} from '../words';
 import type {Context} from './context';
 import {rangeOf, tinted} from './cut';
 import {readings} from './facts';
@@ -39,19 +40,29 @@ export async function hole(_: Row, answer: Answer, context: Context): Promise<Pi
       up: [0, 0, 1],
     },
     charts,
-    said: points.map((p, i) => sentence(`${count(holes, i)}${rangeOf(column(p['b_deg']))}.`)).join(' '),
+    said: sentences(...points.map((p, i) => sentence(t('{text}.', {text: `${count(holes, i)}${rangeOf(column(p['b_deg']))}`})))),
     figures: holes.flatMap((each) => {
       const fit = each['fit_up'] as Row | undefined;
       return [
-        {name: `length of the ${choice(each['side'])} hole`, value: number(Number(each['length_mm']), 'mm'), unit: 'mm', about: 'Along its root.'},
+        {
+          name: t('length of the {side} hole', {side: choice(each['side'])}),
+          value: number(Number(each['length_mm']), 'mm'),
+          unit: 'mm',
+          about: t('Along its root.'),
+        },
         ...(fit
           ? [
-              {name: 'least gap', value: number(Number(fit['least_between_nodes_mm']), 'mm'), unit: 'mm', about: 'Between hole and branch, across the wall.'},
               {
-                name: 'greatest root gap',
+                name: t('least gap'),
+                value: number(Number(fit['least_between_nodes_mm']), 'mm'),
+                unit: 'mm',
+                about: t('Between hole and branch, across the wall.'),
+              },
+              {
+                name: t('greatest root gap'),
                 value: number(Number(fit['greatest_root_between_nodes_mm']), 'mm'),
                 unit: 'mm',
-                about: 'Between hole and branch, at the root.',
+                about: t('Between hole and branch, at the root.'),
               },
             ]
           : []),
@@ -64,7 +75,7 @@ export async function hole(_: Row, answer: Answer, context: Context): Promise<Pi
   };
 }
 
-const count = (holes: Row[], i: number) => (holes.length > 1 ? `${sentence(choice((holes[i] as Row)['side']))} hole: ` : '');
+const count = (holes: Row[], i: number) => (holes.length > 1 ? t('{side} hole: ', {side: sentence(choice((holes[i] as Row)['side']))}) : '');
 
 export const opening = (points: Row): HoledTube['holes'][number] => ({
   outer: {phi: column(points['phi_deg']), z: column(points['z_mm'])},
@@ -85,45 +96,45 @@ function ascending(row: Row, points: Row): Row {
 
 export function holeCharts(each: Row, i: number, count: number, radius: number): Chart[] {
   const p = ascending(each['points'] as Row, each['points'] as Row);
-  const which = count > 1 ? `, ${String(each['branch'] ?? each['side'])}` : '';
-  const x = {name: 'branch φ', unit: '°', values: column(p['branch_phi_deg'])};
+  const which = count > 1 ? `, ${each['branch'] ? String(each['branch']) : choice(each['side'])}` : '';
+  const x = {name: later('branch φ'), unit: '°', values: column(p['branch_phi_deg'])};
   const shared = {link: `hole-${i}`, x, period: (x.values[0] as number) + 360};
   const fit = each['fit_up'] && ascending(each['fit_up'] as Row, each['points'] as Row);
   const scale = radius * radians;
   return [
     {
       id: `bevel-${i}`,
-      title: `Cutting angle B round the hole${which}`,
+      title: `${t('Cutting angle B round the hole')}${which}`,
       ...shared,
       unit: '°',
       series: [
         {name: 'B', values: column(p['b_deg']), tone: 'after', width: 2.2},
-        {name: 'groove', values: column(p['groove_deg']), tone: 'before', dash: [5, 4]},
+        {name: t('groove'), values: column(p['groove_deg']), tone: 'before', dash: [5, 4]},
       ],
     },
     {
       id: `place-${i}`,
-      title: `Where it lies on the chord${which}`,
+      title: `${t('Where it lies on the chord')}${which}`,
       ...shared,
       unit: 'mm',
       series: [
         {name: 'z', values: column(p['z_mm']), tone: 'outer', width: 2},
-        {name: 'around', values: column(p['phi_deg']).map((v) => v * scale), tone: 'inner'},
+        {name: t('around'), values: column(p['phi_deg']).map((v) => v * scale), tone: 'inner'},
       ],
     },
     ...(fit
       ? [
           {
             id: `fit-${i}`,
-            title: `Gap to the branch${which}`,
+            title: `${t('Gap to the branch')}${which}`,
             ...shared,
             unit: 'mm',
             zero: true,
             height: 150,
             series: [
-              {name: 'at the root', values: column(fit['root_mm']), tone: 'after', width: 2},
-              {name: 'at the face', values: column(fit['face_mm']), tone: 'before'},
-              {name: 'least across the wall', values: column(fit['least_mm']), tone: 'floor'},
+              {name: t('at the root'), values: column(fit['root_mm']), tone: 'after', width: 2},
+              {name: t('at the face'), values: column(fit['face_mm']), tone: 'before'},
+              {name: t('least across the wall'), values: column(fit['least_mm']), tone: 'floor'},
             ],
           },
         ]

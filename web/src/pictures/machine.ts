@@ -1,6 +1,8 @@
 import {isRow, type Row} from '../json';
+import {later, t} from '../language';
 import {column, type Chart, type Picture} from '../picture';
 import type {Answer} from '../service';
+import {shownUnit} from '../units';
 import {about, check, label, measured, powers, residual, spelled, term, unit} from '../words';
 import {at, facts, figure, figures, text} from './facts';
 
@@ -12,7 +14,7 @@ export async function replay(_: Row, answer: Answer): Promise<Picture> {
   const z = column(path['z_mm']);
   const every = Math.max(1, Math.ceil(z.length / most));
   const thin = (values: number[]) => values.filter((_v, i) => i % every === 0);
-  const x = {name: 'period', unit: '', values: thin(z.map((_v, i) => i))};
+  const x = {name: later('period'), unit: '', values: thin(z.map((_v, i) => i))};
   const one = (id: string, title: string, name: string, tone: string): Chart[] =>
     name in path
       ? [{id, title, link: 'replay', unit: unit(name), x, series: [{name: label(name), about: about(name), values: thin(column(path[name])), tone, width: 2}]}]
@@ -20,23 +22,29 @@ export async function replay(_: Row, answer: Answer): Promise<Picture> {
   const invariants = result['invariants'] as Row[];
   return {
     charts: [
-      ...one('z', 'z of the torch', 'z_mm', 'outer'),
-      ...one('b', 'B of the torch', 'b_deg', 'after'),
-      ...one('phi', 'φ of the tube', 'phi_deg', 'inner'),
+      ...one('z', t('z of the torch'), 'z_mm', 'outer'),
+      ...one('b', t('B of the torch'), 'b_deg', 'after'),
+      ...one('phi', t('φ of the tube'), 'phi_deg', 'inner'),
     ],
     figures: [
       figure('deviation_mm', result['deviation_mm']),
-      {name: 'invariants held', value: `${invariants.filter((i) => i['passed']).length} of ${invariants.length}`},
+      {name: t('invariants held'), value: t('{some} of {all}', {some: invariants.filter((i) => i['passed']).length, all: invariants.length})},
     ],
-    said: `The tool stays within ${measured('deviation_mm', Number(result['deviation_mm']))} of the contour.`,
+    said: t('The tool stays within {deviation} of the contour.', {deviation: measured('deviation_mm', Number(result['deviation_mm']))}),
     tables: [
       {
-        title: 'Invariants',
-        head: ['invariant', 'held', 'value', 'limit', 'unit'],
+        title: t('Invariants'),
+        head: [t('invariant'), t('held'), t('value'), t('limit'), t('unit')],
         rows: invariants.map((i) => {
           const {name, about} = check(String(i['name']));
           const mark = spelled(String(i['unit']));
-          return [{text: name, about}, i['passed'] ? 'yes' : 'NO', residual(Number(i['value']), mark), residual(Number(i['limit']), mark), mark];
+          return [
+            {text: name, about},
+            i['passed'] ? t('yes') : t('NO'),
+            residual(Number(i['value']), mark),
+            residual(Number(i['limit']), mark),
+            shownUnit(mark),
+          ];
         }),
       },
     ],
@@ -47,55 +55,60 @@ export async function feedCurve(_: Row, answer: Answer): Promise<Picture> {
   const {request, result} = answer;
   const table = result['table'] as Row,
     fit = result['fit'] as Row | undefined;
-  const t = column(table['t_s']),
+  const times = column(table['t_s']),
     speed = column(table['cylinder_speed_mm_s']);
-  const fitted = fit ? t.map((time) => polynomial(column(fit['seconds']), time)) : [];
-  const x = {name: 'time', unit: 's', values: t};
+  const fitted = fit ? times.map((time) => polynomial(column(fit['seconds']), time)) : [];
+  const x = {name: later('time'), unit: 's', values: times};
   const work = result['work'] as Row;
   const charts: Chart[] = [
     {
       id: 'speed',
-      title: 'Cylinder speed that keeps the feed constant',
+      title: t('Cylinder speed that keeps the feed constant'),
       link: 'feed',
       unit: 'mm/s',
       x,
       height: 250,
       series: [
-        {name: 'exact', values: speed, tone: 'before', width: 4},
-        ...(fit ? [{name: `polynomial of degree ${fit['degree']}`, values: fitted, tone: 'after', width: 1.5}] : []),
+        {name: t('exact'), values: speed, tone: 'before', width: 4},
+        ...(fit ? [{name: t('polynomial of degree {degree}', {degree: Number(fit['degree'])}), values: fitted, tone: 'after', width: 1.5}] : []),
       ],
     },
     ...(fit
       ? [
           {
             id: 'error',
-            title: 'Relative error of the polynomial',
+            title: t('Relative error of the polynomial'),
             link: 'feed',
             unit: '%',
             x,
             zero: true,
             height: 170,
-            series: [{name: 'error', values: speed.map((v, i) => 100 * ((fitted[i] as number) / v - 1)), tone: 'after'}],
+            series: [{name: t('error'), values: speed.map((v, i) => 100 * ((fitted[i] as number) / v - 1)), tone: 'after'}],
           },
         ]
       : []),
     {
       id: 'stroke',
-      title: 'Stroke of the cylinder and feed of the tool',
+      title: t('Stroke of the cylinder and feed of the tool'),
       link: 'feed',
       unit: 'mm',
       x,
       height: 170,
       series: [
-        {name: 'stroke', values: column(table['stroke_mm']), tone: 'outer', width: 2},
-        {name: 'feed', values: column(table['feed_mm']), tone: 'inner'},
+        {name: t('stroke'), values: column(table['stroke_mm']), tone: 'outer', width: 2},
+        {name: t('feed'), values: column(table['feed_mm']), tone: 'inner'},
       ],
     },
   ];
   const comparison = (result['comparison'] ?? []) as Row[];
   return {
     charts,
-    said: `The tool feeds ${measured('feed_mm_s', Number(work['feed_mm_s']))} for ${measured('duration_s', Number(work['duration_s']))}; the cylinder goes from ${measured('min_cylinder_speed_mm_s', Number(work['min_cylinder_speed_mm_s']))} to ${measured('max_cylinder_speed_mm_s', Number(work['max_cylinder_speed_mm_s']))}.`,
+    said: t('The tool feeds {feed} for {time}; the cylinder goes from {low} to {high}.', {
+      feed: measured('feed_mm_s', Number(work['feed_mm_s'])),
+      time: measured('duration_s', Number(work['duration_s'])),
+      low: measured('min_cylinder_speed_mm_s', Number(work['min_cylinder_speed_mm_s'])),
+      high: measured('max_cylinder_speed_mm_s', Number(work['max_cylinder_speed_mm_s'])),
+    }),
     figures: [
       ...figures(work, ['duration_s', 'min_cylinder_speed_mm_s', 'max_cylinder_speed_mm_s']),
       ...figures(fit, ['degree', 'max_relative_error', 'tool_position_error_mm']),
@@ -106,10 +119,10 @@ export async function feedCurve(_: Row, answer: Answer): Promise<Picture> {
       ...(fit
         ? [
             {
-              title: 'Polynomial in seconds, to six digits',
-              head: ['power', 'coefficient'],
+              title: t('Polynomial in seconds, to six digits'),
+              head: [t('power'), t('coefficient')],
               rows: column(fit['seconds_rounded']).map((c, i) => [
-                {text: `t^${i}`, about: 'To six digits here; whole in the files and in the JSON.'},
+                {text: `t^${i}`, about: t('To six digits here; whole in the files and in the JSON.')},
                 powers(c),
               ]),
             },
@@ -118,24 +131,24 @@ export async function feedCurve(_: Row, answer: Answer): Promise<Picture> {
       ...(comparison.length
         ? [
             {
-              title: 'Methods compared',
+              title: t('Methods compared'),
               head: compared.map((key) => term(key)),
               rows: comparison.map((c) => compared.map((key) => text(key, c[key]))),
             },
           ]
         : []),
       ...['geometry', 'cycle', 'tool'].filter((key) => isRow(result[key])).map((key) => facts(key, result[key] as Row)),
-      ...(isRow(request['linkage']) ? [facts('linkage', request['linkage'], 'Linkage as understood')] : []),
+      ...(isRow(request['linkage']) ? [facts('linkage', request['linkage'], t('Linkage as understood'))] : []),
     ],
     readout: (i) => [
-      ['time', at(table, 't_s', i)],
-      ['cylinder', at(table, 'cylinder_speed_mm_s', i)],
-      ['feed', at(table, 'feed_mm', i)],
-      ['stroke', at(table, 'stroke_mm', i)],
+      [t('time'), at(table, 't_s', i)],
+      [t('cylinder'), at(table, 'cylinder_speed_mm_s', i)],
+      [t('feed'), at(table, 'feed_mm', i)],
+      [t('stroke'), at(table, 'stroke_mm', i)],
     ],
   };
 }
 
 const compared = ['method', 'degree', 'max_relative_error', 'tool_position_error_mm'];
 
-const polynomial = (c: number[], t: number) => c.reduceRight((sum, each) => sum * t + each, 0);
+const polynomial = (c: number[], time: number) => c.reduceRight((sum, each) => sum * time + each, 0);

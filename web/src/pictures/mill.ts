@@ -1,4 +1,5 @@
 import {isRow, type Row} from '../json';
+import {t} from '../language';
 import {column, type Section, type SectionLine, type Tool, type Vector} from '../picture';
 import {number} from '../words';
 import {add, radians} from './geometry';
@@ -110,7 +111,7 @@ export function sectionOf(link: string, curves: Curves, omega: number[], tool?: 
       const lines: SectionLine[] = [{points: moved([...corners, [thick, top], [thin, top]]), tone: 'steel'}];
       if (tool?.before) lines.push({points: moved(outline(tool.before[i % all.length] as Pose, tool)), tone: 'before', dashed: true});
       if (tool) lines.push({points: moved(outline(tool.poses[i % all.length] as Pose, tool)), tone: 'after'});
-      return {title: `Section at ω ${number(omega[i % all.length] as number, '°')}°`, lines, moved: ([s, z]) => [s - thin, z - base]};
+      return {title: t('Section at ω {angle}°', {angle: number(omega[i % all.length] as number, '°')}), lines, moved: ([s, z]) => [s - thin, z - base]};
     },
   };
 }

@@ -1,10 +1,11 @@
 import {isRow, rowsOf, type Json, type Row} from '../json';
+import {many, t} from '../language';
 import {usualCut} from '../onward';
 import {column, type Assembly, type EndCurve, type Facts, type Frame, heightsOf, type Item, type MemberPart, type Picture, type Vector} from '../picture';
 import type {Answer} from '../service';
 import {choice, sentence, term} from '../words';
 import {atPhi} from './cut';
-import {figures, plural, text} from './facts';
+import {figures, text} from './facts';
 import {size} from './frame_items';
 import type {Context} from './context';
 import {add, bounds, dot, frame, onTube, placed, radians, squareEnd, tube, vector, type Sizes} from './geometry';
@@ -23,7 +24,11 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
   }
   const cut = ends.filter((end) => (end['cut_by'] as Row[]).length > 0);
   const free = ends.filter((end) => end['free']).length;
-  const said = [plural(members.length, 'member'), `${plural(cut.length, 'end')} cut`, plural(free, 'free end')].join(', ');
+  const said = [
+    many(members.length, '{n} member', '{n} members'),
+    many(cut.length, '{n} end cut', '{n} ends cut'),
+    many(free, '{n} free end', '{n} free ends'),
+  ].join(t(', '));
   const assembly = assemblyOf(members, ends, context.sizes);
   const corners = assembly.members.flatMap(({part, frame: to}) => {
     return bounds(heightsOf(assembly.parts[part] as MemberPart).flat()).map((z) => placed(to, [0, 0, z]));
@@ -42,12 +47,12 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
       up: [0, 0, 1],
     },
     charts: [],
-    said: `${said}.`,
-    inspected: {link, lists: [{id: 'members', title: 'Members', items: members.map((_, i) => item(answer.request, members, ends, i, context.sizes))}]},
+    said: t('{text}.', {text: said}),
+    inspected: {link, lists: [{id: 'members', title: t('Members'), items: members.map((_, i) => item(answer.request, members, ends, i, context.sizes))}]},
     figures: [
-      {name: 'members', value: String(members.length)},
-      {name: 'cut ends', value: String(cut.length)},
-      {name: 'free ends', value: String(free)},
+      {name: t('members'), value: String(members.length)},
+      {name: t('cut ends'), value: String(cut.length)},
+      {name: t('free ends'), value: String(free)},
     ],
     tables: [whoCutsWhom(cut)],
   };
@@ -56,9 +61,9 @@ export async function node(body: Row, answer: Answer, context: Context): Promise
 const placements = ['inclination_deg', 'clocking_deg', 'offset_mm', 'height_mm'];
 
 const whoCutsWhom = (cut: Row[]) => ({
-  title: 'Who cuts whom',
+  title: t('Who cuts whom'),
   names: true as const,
-  head: ['member', 'end', 'cut by', ...placements.map((key) => term(key)), term('gap_mm'), term('eccentricity_mm')],
+  head: [t('member'), t('end'), t('cut by'), ...placements.map((key) => term(key)), term('gap_mm'), term('eccentricity_mm')],
   rows: cut.flatMap((end) =>
     (end['cut_by'] as Row[]).map((by) => {
       const p = by['placement']; // a mitre is by a plane
@@ -92,12 +97,12 @@ function item(request: Row, members: Row[], ends: Row[], i: number, sizes: Sizes
   const facts = (): Facts => ({
     said: own.map((end) => {
       const by = rowsOf(end['cut_by']).map((each) => String(each['member']));
-      return `${sentence(choice(end['end']))}: ${by.length ? `cut by ${by.join(', ')}` : 'free'}.`;
+      return t('{part}: {text}.', {part: sentence(choice(end['end'])), text: by.length ? t('cut by {names}', {names: by.join(', ')}) : t('free')});
     }),
     figures: figures({...dimensions, length_mm: lengthOf(member)}, [...Object.keys(dimensions), 'length_mm']),
     warnings: [],
     leads: [...new Set(cutters)].map((name) => ({name, to: members.findIndex((each) => each['id'] === name)})).filter(({to}) => to >= 0),
-    opens: {name: 'Go on to its part', endpoint: 'parts', body: partOf(request, id)},
+    opens: {name: t('Go on to its part'), endpoint: 'parts', body: partOf(request, id)},
   });
   return {name: id, detail: size(dimensions), mark: {text: '', tone: tone(i)}, facts};
 }

@@ -1,14 +1,15 @@
 import {isRow, rowsOf, type Row} from '../json';
+import {many, t} from '../language';
 import {pressed} from '../preset';
 import {column, type EndCurve, type Frame, type HoledTube, type Partner, type Picture, type Solid} from '../picture';
 import type {Answer} from '../service';
-import {sentence, withUnit} from '../words';
+import {choice, sentence, sentences, withUnit} from '../words';
 import type {Context} from './context';
 import {rangeOf, tablePicture, tinted} from './cut';
-import {figures, plural} from './facts';
+import {figures} from './facts';
 import {gapScale, gapsOf, webFigures} from './gaps';
 import {table} from './generic';
-import {bounds, frame, onTube, partner, placed, seenFrom, tube, type Sizes} from './geometry';
+import {bounds, frame, onTube, partner, placed, radians, seenFrom, strokesOf, tube, type Sizes} from './geometry';
 import {holeCharts, opening} from './hole';
 import {isSection} from './section';
 import {sectionPart} from './section_part';
@@ -26,11 +27,11 @@ export async function part(_: Row, answer: Answer, context: Context): Promise<Pi
   const charts = Object.entries(ends).flatMap(([side, end]) => {
     const own = end as Row;
     const asked: Row = {...request, ...(isRow(given[side]) ? given[side] : {})};
-    const cutters = rowsOf(asked['cutters']).map((each, i) => String(each['id'] ?? `partner ${i + 1}`));
+    const cutters = rowsOf(asked['cutters']).map((each, i) => String(each['id'] ?? t('partner {n}', {n: i + 1})));
     const names = cutters.length ? cutters : ((own['cutter_ids'] ?? []) as string[]);
     if (!names.length) return []; // square: nothing to draw over phi
     const drawn = tablePicture(asked, own, {outer, wall, cutters: [], names}, context.sizes, `cut-${side}`);
-    return drawn.charts.map((chart) => ({...chart, id: `${chart.id}-${side}`, title: `${sentence(side)}: ${chart.title}`}));
+    return drawn.charts.map((chart) => ({...chart, id: `${chart.id}-${side}`, title: t('{part}: {text}', {part: sentence(choice(side)), text: chart.title})}));
   });
   return {
     solid: solidOf(request, result, {outer, wall}, context.sizes),
@@ -48,9 +49,17 @@ export async function part(_: Row, answer: Answer, context: Context): Promise<Pi
 /** "Cut to 812.4 mm, with two holes. Start: B from ..." */
 function said(result: Row, holes: number, openings: number): string {
   const lengths = result['lengths'] as Row;
-  const ends = Object.entries(result['ends'] as Row).map(([side, end]) => `${sentence(side)}: ${rangeOf(endCurve(end as Row).b ?? [])}.`);
-  return `${withUnit(Number(lengths['long_mm']), 'mm')} from tip to tip${holes ? `, ${plural(holes, 'hole')}` : ''}${openings ? `, ${plural(openings, 'cut-out')}` : ''}. ${ends.join(' ')}`;
+  const ends = Object.entries(result['ends'] as Row).map(([side, end]) => endSaid(side, endCurve(end as Row).b ?? []));
+  const first = [
+    t('{length} from tip to tip', {length: withUnit(Number(lengths['long_mm']), 'mm')}),
+    ...(holes ? [many(holes, '{n} hole', '{n} holes')] : []),
+    ...(openings ? [many(openings, '{n} cut-out', '{n} cut-outs')] : []),
+  ];
+  return sentences(t('{text}.', {text: first.join(t(', '))}), ...ends);
 }
+
+/** "Start: B from 18.7 to 72.6°." */
+const endSaid = (side: string, b: number[]) => t('{part}: {text}.', {part: sentence(choice(side)), text: rangeOf(b)});
 
 function endCurve(end: Row): EndCurve {
   const points = end['points'] as Row;
@@ -114,6 +123,10 @@ function solidOf(request: Row, result: Row, {outer, wall}: {outer: number; wall:
     lines: [
       ...datum.map((mark) => ({
         points: [mark['z_from_mm'], mark['z_to_mm']].map((z) => onTube(1.002 * (outer / 2), Number(mark['phi_deg']), Number(z))),
+        tone: 'mark' as const,
+      })),
+      ...strokesOf(result, 0.025 * outer, (girth, z) => onTube(1.002 * (outer / 2), girth / (outer / 2) / radians, z)).map((points) => ({
+        points,
         tone: 'mark' as const,
       })),
       ...edges.map(({outer: edge}) => ({

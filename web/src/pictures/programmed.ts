@@ -1,3 +1,4 @@
+import {later, t} from '../language';
 import {point} from '../links';
 import type {Picture, Played, Solid, Vector} from '../picture';
 import {placeOf, type Move, type Program} from '../program';
@@ -5,6 +6,7 @@ import {radians} from './geometry';
 
 export const programLink = 'program';
 const tones: Record<Move['kind'], string> = {cut: 'after', rapid: 'ink-soft', pierce: 'mark'};
+const kindNames: Record<Move['kind'], string> = {cut: later('cut'), rapid: later('rapid'), pierce: later('pierce')};
 const lifted = 1.25; // of the tube's reach, at which rapids are drawn
 const turn = 6; // degrees of a rapid that are drawn straight
 
@@ -72,12 +74,12 @@ function playedOf(moves: Move[], parts: [number, number][]): Played {
   return {
     link: programLink,
     seconds,
-    events: begins.map(([from]) => ({at: from, text: moves[from]?.cut || 'cut'})),
+    events: begins.map(([from]) => ({at: from, text: moves[from]?.cut || t('cut')})),
     segments: parts.map(([from, to]) => ({
       from: from === 0 ? 0 : (seconds[from - 1] as number),
       to: seconds[to] as number,
       tone: tones[(moves[from] as Move).kind],
-      text: [moves[from]?.kind, moves[from]?.cut].filter(Boolean).join(', '),
+      text: [kindNames[(moves[from] as Move).kind], moves[from]?.cut].flatMap((each) => (each ? [t(each)] : [])).join(', '),
     })),
   };
 }

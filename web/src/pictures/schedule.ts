@@ -1,4 +1,5 @@
 import {isRow, rowsOf, type Row} from '../json';
+import {later, t} from '../language';
 import {column, type Chart, type CutTube, type Picture, type Played, type Series, type Solid, type Table, type Tool, type Vector} from '../picture';
 import type {Answer} from '../service';
 import {shownUnit} from '../units';
@@ -156,28 +157,45 @@ export function scheduleCharts(answer: Answer, machine: Row | undefined, way: Wa
     .map((s) => ({
       from: Number(s['from']) * period,
       to: Number(s['to']) * period,
-      ...(s['kind'] === 'mark' ? {tone: 'mark', text: 'marking'} : {tone: 'ink-soft', text: 'rapid'}),
+      ...(s['kind'] === 'mark' ? {tone: 'mark', text: t('marking')} : {tone: 'ink-soft', text: t('rapid')}),
     }));
   const each = (make: (pulses: number[], axis: string) => number[]): Series[] =>
     axes.map((axis, i) => ({name: axis, tone: tones[i % tones.length] as string, values: make(column(counts[axis]), axis)}));
-  const shared = {link, x: {name: 'time', unit: 's', values: periods.map((i) => i * period)}, pace: period, unit: '', marks, bands, zero: true};
-  const charts: Chart[] = [{...shared, id: 'pulses', title: 'Pulses per period', series: each((pulses) => extremes(pulses, times)), height: 210}];
+  const shared = {
+    link,
+    x: {name: later('time'), unit: 's', values: periods.map((i) => i * period)},
+    pace: period,
+    unit: '',
+    marks,
+    bands,
+    zero: true,
+    ...roundOf(way, periods),
+  };
+  const charts: Chart[] = [{...shared, id: 'pulses', title: t('Pulses per period'), series: each((pulses) => extremes(pulses, times)), height: 210}];
   if (machine) {
     const of = (pulses: number[], axis: string) => extremes(shares(pulses, machine, axis, period), times);
     charts.unshift({
       ...shared,
       id: 'speed',
-      title: 'Speed of each axis, fraction of its limit',
+      title: t('Speed of each axis, fraction of its limit'),
       unit: '%',
       series: each(of),
-      limits: [{y: 100, text: 'the limit of each axis'}],
+      limits: [{y: 100, text: t('the limit of each axis')}],
       within: 100,
     });
   }
   if (way) charts.unshift(tipChart(shared, request, way, times, rowsOf((result['report'] as Row)['slow'])));
   const naive = (result['comparison'] as Row | undefined)?.['naive'] as Row | undefined;
   if (naive) charts.push(beforeChart(shared, naive, machine, axes, times));
-  return [...charts, {...shared, id: 'positions', title: 'Pulses since the start', series: each((pulses) => summed(pulses, periods)), height: 150}];
+  return [...charts, {...shared, id: 'positions', title: t('Pulses since the start'), series: each((pulses) => summed(pulses, periods)), height: 150}];
+}
+
+/** Of one cut round a tube: the angle at each point; none if the tube turns back meanwhile, or if the way round is no circle. */
+function roundOf(way: Way | undefined, periods: number[]): Pick<Chart, 'round'> {
+  if (!way || way.section) return {};
+  const phi = periods.map((i) => way.phi[i + 1] ?? way.phi[i] ?? 0);
+  const rises = phi.every((each, i) => i === 0 || each >= (phi[i - 1] as number)) && (phi[phi.length - 1] as number) > (phi[0] as number);
+  return rises ? {round: {phi, perDegree: way.outer * radians}} : {};
 }
 
 /**
@@ -206,12 +224,12 @@ function beforeChart(
   return {
     ...shared,
     id: 'before',
-    title: 'Before: pulses per period at constant speed',
+    title: t('Before: pulses per period at constant speed'),
     marks: [],
     series: rowsOf(naive['axes'])
       .filter(({name}) => axes.includes(String(name)))
       .map(({name, pulses}, i) => ({name: String(name), tone: tones[i % tones.length] as string, values: most(column(pulses))})),
-    limits: [...limits].map((y) => ({y, text: 'the capacity of a period'})),
+    limits: [...limits].map((y) => ({y, text: t('the capacity of a period')})),
     height: 210,
   };
 }
@@ -245,20 +263,20 @@ function tipChart(shared: Omit<Chart, 'id' | 'title' | 'series'>, request: Row, 
   return {
     ...shared,
     id: 'tip',
-    title: 'Speed of the cut',
+    title: t('Speed of the cut'),
     unit: 'mm/min',
     height: 210,
     series: [
       {
-        name: 'tip',
-        about: 'Mean of 25 periods, on the wall of the requested speed.',
+        name: t('tip'),
+        about: t('Mean of 25 periods, on the wall of the requested speed.'),
         values: extremes(tipSpeeds(way, times.period), times),
         tone: 'after',
         width: 2,
       },
     ],
-    bands: slow.map((zone) => ({from: Number(zone['from']) * times.period, to: Number(zone['to']) * times.period, tone: 'bad', text: 'slow'})),
-    ...(Number.isFinite(asked) ? {limits: [{y: asked, text: 'asked for'}], within: asked} : {}),
+    bands: slow.map((zone) => ({from: Number(zone['from']) * times.period, to: Number(zone['to']) * times.period, tone: 'bad', text: t('slow')})),
+    ...(Number.isFinite(asked) ? {limits: [{y: asked, text: t('asked for')}], within: asked} : {}),
   };
 }
 
@@ -340,7 +358,7 @@ function contourSolid(way: Way, result: Row): Solid | undefined {
 export function motionFacts({result}: Answer, way?: Way): Told {
   const report = (result['report'] ?? {}) as Row;
   const use = (report['max_use'] ?? {}) as Record<string, number>;
-  const what: Record<string, string> = {v: 'speed', a: 'acceleration', j: 'jerk', n: 'pulses per period'};
+  const what: Record<string, string> = {v: t('speed'), a: t('acceleration'), j: t('jerk'), n: t('pulses per period')};
   const axes = [...new Set(Object.keys(use).map((key) => key.slice(2)))];
   const names = ['time_s', 'ideal_s', 'length_mm', 'dev_tip_mm', 'dev_b_deg', 'sag_mm', 'min_tip_mm_min', 'slow_s'];
   const {period, periods} = timesOf(result);
@@ -350,18 +368,22 @@ export function motionFacts({result}: Answer, way?: Way): Told {
   const unplanned = ['peak_pulses', 'periods_over', 'largest_step_pulses', 'step_in_16_bits'];
   return {
     figures: [...figures(report, names, 'report'), ...figures((result['times'] ?? {}) as Row, ['cut_s', 'pierce_s', 'rapid_s', 'mark_s'], 'times')],
-    said: `${measured('time_s', Number(report['time_s']))} for ${measured('length_mm', Number(report['length_mm']))} of cut; ${limiting(use)}.`,
+    said: t('{time} for {length} of cut; {limits}.', {
+      time: measured('time_s', Number(report['time_s'])),
+      length: measured('length_mm', Number(report['length_mm'])),
+      limits: limiting(use),
+    }),
     tables: [
       {
-        title: 'Use of the machine’s limits',
-        head: ['axis', ...Object.values(what)],
+        title: t('Use of the machine’s limits'),
+        head: [t('axis'), ...Object.values(what)],
         rows: axes.map((axis) => [axis, ...Object.keys(what).map((key) => withUnit(100 * (use[`${key}_${axis}`] ?? 0), '%'))]),
       },
       ...(naive
         ? [
             {
-              title: 'Before: every segment at the requested speed',
-              head: ['axis', ...unplanned.map((key) => term(key))],
+              title: t('Before: every segment at the requested speed'),
+              head: [t('axis'), ...unplanned.map((key) => term(key))],
               rows: rowsOf(naive['axes']).map((axis): (Term | string)[] => [String(axis['name']), ...unplanned.map((key) => String(axis[key] ?? '–'))]),
             },
           ]
@@ -371,17 +393,17 @@ export function motionFacts({result}: Answer, way?: Way): Told {
     readout: (i) => {
       const at = periods[i % periods.length] as number;
       return [
-        ['time', withUnit(at * period, 's')],
+        [t('time'), withUnit(at * period, 's')],
         ...(way ? placeOf(way, at + 1, speeds[at] as number) : []),
-        ...Object.keys(counts).map((axis): [Term, string] => [axis, `${column(counts[axis])[at] ?? 0} pulses`]),
+        ...Object.keys(counts).map((axis): [Term, string] => [axis, withUnit(column(counts[axis])[at] ?? 0, 'pulses')]),
       ];
     },
   };
 }
 
 const eventsOf = (result: Row, period: number): Table => ({
-  title: 'Events',
-  head: [term('period'), 'time s', term('what')],
+  title: t('Events'),
+  head: [term('period'), `${t('time')} s`, term('what')],
   rows: rowsOf(result['events']).map((e) => [String(e['period']), number(Number(e['period']) * period, 's'), choice(e['what'])]),
 });
 
@@ -394,8 +416,8 @@ function cutsOf(result: Row, period: number): Table {
   const segments = rowsOf(result['segments']);
   const of = (i: number, kind: string) => [segments[i - 1], segments[i - 2]].find((s) => s?.['kind'] === kind && s['name'] === segments[i]?.['name']);
   return {
-    title: 'Cuts in their order',
-    head: [term('cut'), 'from s', 'rapid s', 'pierce s', 'cut s', `length ${shownUnit('mm')}`],
+    title: t('Cuts in their order'),
+    head: [term('cut'), ...[t('from'), t('rapid'), t('pierce'), t('cut')].map((each) => `${each} s`), `${t('length')} ${shownUnit('mm')}`],
     rows: segments.flatMap((s, i) =>
       s['kind'] === 'cut' || s['kind'] === 'mark'
         ? [
@@ -414,14 +436,14 @@ function cutsOf(result: Row, period: number): Table {
 }
 
 const placeOf = (way: Way, i: number, speed: number): [Term, string][] => [
-  ['speed of the cut', withUnit(speed, 'mm/min')],
+  [t('speed of the cut'), withUnit(speed, 'mm/min')],
   [label(way.section ? 'normal_deg' : 'phi_deg'), withUnit(way.phi[i] as number, '°')],
-  ['z outside', withUnit(way.zOuter[i] as number, 'mm')],
-  ['B of the machine', withUnit(way.b[i] as number, '°')],
+  [t('z outside'), withUnit(way.zOuter[i] as number, 'mm')],
+  [t('B of the machine'), withUnit(way.b[i] as number, '°')],
 ];
 
 /** Which limits the motion runs at. */
 function limiting(use: Record<string, number>): string {
   const axes = [...new Set(Object.entries(use).flatMap(([key, share]) => (share > 0.98 ? [key.slice(2)] : [])))];
-  return axes.length ? `at the limits of ${axes.join(', ')}` : 'no axis at its limits';
+  return axes.length ? t('at the limits of {axes}', {axes: axes.join(', ')}) : t('no axis at its limits');
 }

@@ -1,8 +1,9 @@
 import {isRow, type Json, type Row} from '../json';
+import {later, many, t} from '../language';
 import {column, type Band, type Chart, type Mark, type Picture, type Table} from '../picture';
 import type {Answer} from '../service';
 import {choice, number, term} from '../words';
-import {facts, figure, figures, plural, readings} from './facts';
+import {facts, figure, figures, readings} from './facts';
 import {gapChart, gapsOf} from './gaps';
 import {bounds, type Sizes} from './geometry';
 import {cornersOf, edgeOf, edgesOf, sectionSolid} from './section_solid';
@@ -13,7 +14,7 @@ export const isSection = (answer: Answer) => isRow(answer.result['section']);
 const rowsIn = (row: Row, name: string) => (row[name] ?? []) as Row[];
 
 function namesOf(request: Row): string[] {
-  return rowsIn(request, 'cutters').map((each, i) => String(each['id'] ?? `partner ${i + 1}`));
+  return rowsIn(request, 'cutters').map((each, i) => String(each['id'] ?? t('partner {n}', {n: i + 1})));
 }
 
 /** Ends of flats are seen at the strip of faces; junctions, jumps and kinks are marked. */
@@ -25,8 +26,8 @@ const marksOf = (events: Row[], surface: Json | undefined): Mark[] =>
 function eventTable(events: Row[], names: string[]): Table {
   const name = (value: Json | undefined) => names[Number(value)] ?? String(value);
   return {
-    title: 'Junctions and ends of flats',
-    head: ['kind', 'wall', term('girth_mm'), term('z_mm'), 'from', 'to'],
+    title: t('Junctions and ends of flats'),
+    head: [t('kind'), t('wall'), term('girth_mm'), term('z_mm'), t('from'), t('to')],
     rows: events.map((row) => [
       choice(row['kind']),
       choice(row['surface']),
@@ -41,7 +42,7 @@ function eventTable(events: Row[], names: string[]): Table {
 function bandsOf(result: Row, girth: number): Band[] {
   return rowsIn(result, 'torch_binds').flatMap((row) => {
     const [from, to] = [Number(row['from_girth_mm']), Number(row['to_girth_mm'])];
-    const band = {tone: 'bad', text: 'torch range binds'};
+    const band = {tone: 'bad', text: t('torch range binds')};
     if (to <= girth) return [{from, to, ...band}];
     return [
       {from, to: girth, ...band},
@@ -51,7 +52,7 @@ function bandsOf(result: Row, girth: number): Band[] {
 }
 
 /** Where the outline is round. */
-const cornerBands = (section: Row): Band[] => cornersOf(section).map(([from, to]) => ({from, to, tone: 'steel', text: 'corner'}));
+const cornerBands = (section: Row): Band[] => cornersOf(section).map(([from, to]) => ({from, to, tone: 'steel', text: t('corner')}));
 
 /** One end over the girth: its bevel, or where the cut is square its gaps, and its two edges. */
 export function sectionCharts(request: Row, end: Row, section: Row, link: string): Chart[] {
@@ -62,7 +63,7 @@ export function sectionCharts(request: Row, end: Row, section: Row, link: string
   const torch = isRow(request['torch']) ? request['torch'] : {};
   const shared = {
     link,
-    x: {name: 'girth', unit: 'mm', values: of('girth_mm')},
+    x: {name: later('girth'), unit: 'mm', values: of('girth_mm')},
     period: girth,
     partners: of('cutter'),
     partnerNames: namesOf(request),
@@ -73,26 +74,26 @@ export function sectionCharts(request: Row, end: Row, section: Row, link: string
     {
       ...shared,
       id: 'bevel',
-      title: 'Cutting angle B',
+      title: t('Cutting angle B'),
       unit: '°',
       height: 205,
       series: [
-        {name: 'before', about: 'As the groove requires it.', values: raw, tone: 'before', dash: [5, 4]},
-        {name: 'least that clears', about: 'With less, a partner would enter the wall.', values: of('b_required_deg'), tone: 'floor', width: 1},
-        {name: 'after', about: 'As the torch follows it.', values: b, tone: 'after', width: 2.2},
+        {name: t('before'), about: t('As the groove requires it.'), values: raw, tone: 'before', dash: [5, 4]},
+        {name: t('least that clears'), about: t('With less, a partner would enter the wall.'), values: of('b_required_deg'), tone: 'floor', width: 1},
+        {name: t('after'), about: t('As the torch follows it.'), values: b, tone: 'after', width: 2.2},
       ],
       bands: [...shared.bands, ...bandsOf(end, girth)],
-      limits: ['min_deg', 'max_deg'].map((name) => ({y: Number(torch[name] ?? NaN), text: 'torch limit'})).filter((l) => Number.isFinite(l.y)),
+      limits: ['min_deg', 'max_deg'].map((name) => ({y: Number(torch[name] ?? NaN), text: t('torch limit')})).filter((l) => Number.isFinite(l.y)),
     },
     {
       ...shared,
       id: 'height',
-      title: 'Height z of the cut',
+      title: t('Height z of the cut'),
       unit: 'mm',
       height: 150,
       series: [
-        {name: 'outer edge', values: of('z_outer_mm'), tone: 'outer', width: 2},
-        {name: 'inner edge', values: of('z_inner_mm'), tone: 'inner', width: 1.5, dash: [5, 4]},
+        {name: t('outer edge'), values: of('z_outer_mm'), tone: 'outer', width: 2},
+        {name: t('inner edge'), values: of('z_inner_mm'), tone: 'inner', width: 1.5, dash: [5, 4]},
       ],
     },
   ];
@@ -118,14 +119,16 @@ export function sectionTable(answer: Answer, sizes: Sizes): Picture {
     solid: sectionSolid('cut', edgesOf(section, points), rowsIn(request, 'cutters'), sizes),
     charts: sectionCharts(request, result, section, 'cut'),
     figures: [
-      {name: 'least B', value: number(low, '°'), unit: '°', about: 'Of the finished cut.'},
-      {name: 'greatest B', value: number(high, '°'), unit: '°', about: 'Of the finished cut.'},
+      {name: t('least B'), value: number(low, '°'), unit: '°', about: t('Of the finished cut.')},
+      {name: t('greatest B'), value: number(high, '°'), unit: '°', about: t('Of the finished cut.')},
       ...figures(gap, ['greatest_mm'], 'gap'),
       figure('length_mm', result['length_mm']),
     ],
     tables: [facts('section', section), eventTable(rowsIn(result, 'events'), namesOf(request))],
     readout: (i) => sectionReadings(points, i),
-    said: low === high ? `B is ${number(low, '°')}° all round.` : `B from ${number(low, '°')} to ${number(high, '°')}°.`,
+    said: t('{text}.', {
+      text: low === high ? t('B is {b}° all round', {b: number(low, '°')}) : t('B from {low} to {high}°', {low: number(low, '°'), high: number(high, '°')}),
+    }),
   };
 }
 
@@ -136,30 +139,36 @@ export function sectionCurves(answer: Answer, sizes: Sizes): Picture {
   const events = profiles.flatMap((profile) => rowsIn(profile, 'events'));
   const on = (surface: string) => (profiles.find((each) => each['surface'] === surface) ?? (profiles[0] as Row))['points'] as Row;
   return {
-    solid: sectionSolid(choice('outer'), [edgeOf(on('outer')), edgeOf(on('inner'))], rowsIn(request, 'cutters'), sizes),
+    solid: sectionSolid('outer', [edgeOf(on('outer')), edgeOf(on('inner'))], rowsIn(request, 'cutters'), sizes),
     charts: profiles.map((profile): Chart => {
       const points = profile['points'] as Row;
       const surface = choice(profile['surface']);
+      const link = String(profile['surface']);
       return {
-        id: `height-${surface}`,
-        title: `Height z, ${surface} edge`,
-        link: surface,
+        id: `height-${link}`,
+        title: t('Height z, {surface} edge', {surface}),
+        link,
         unit: 'mm',
-        x: {name: 'girth', unit: 'mm', values: column(points['girth_mm'])},
+        x: {name: later('girth'), unit: 'mm', values: column(points['girth_mm'])},
         period: Number(profile['developed_length_mm']),
         partners: column(points['cutter']),
         partnerNames: names,
         height: 200,
-        series: [{name: `${surface} edge`, values: column(points['z_mm']), tone: 'outer', width: 2}],
+        series: [{name: t('{surface} edge', {surface}), values: column(points['z_mm']), tone: 'outer', width: 2}],
         marks: marksOf(events, profile['surface']),
       };
     }),
-    figures: profiles.map((profile) => ({...figure('length_mm', profile['length_mm']), name: `length, ${choice(profile['surface'])} edge`})),
+    figures: profiles.map((profile) => ({
+      ...figure('length_mm', profile['length_mm']),
+      name: t('length, {surface} edge', {surface: choice(profile['surface'])}),
+    })),
     tables: [facts('section', result['section'] as Row), eventTable(events, names)],
     readout: (i, link) => {
-      const profile = profiles.find((each) => choice(each['surface']) === link);
+      const profile = profiles.find((each) => each['surface'] === link);
       return profile ? readings(profile['points'] as Row, i, ['girth_mm', 'normal_deg', 'face', 'z_mm']) : [];
     },
-    said: `The cut meets ${plural(new Set(profiles.flatMap((profile) => column((profile['points'] as Row)['cutter']))).size, 'partner')}.`,
+    said: t('The cut meets {partners}.', {
+      partners: many(new Set(profiles.flatMap((profile) => column((profile['points'] as Row)['cutter']))).size, '{n} partner', '{n} partners'),
+    }),
   };
 }

@@ -1,15 +1,16 @@
 import {isRow, rowsOf, type Row} from '../json';
+import {many, t} from '../language';
 import {pressed} from '../preset';
 import {column, type Frame, type Partner, type Picture, type Solid, type Table, type Vector} from '../picture';
 import type {Answer} from '../service';
-import {about, label, sentence, shown, withUnit, type Term} from '../words';
+import {about, choice, label, sentence, sentences, shown, withUnit, type Term} from '../words';
 import {rangeOf, tinted} from './cut';
-import {facts, figures, plural} from './facts';
+import {facts, figures} from './facts';
 import {gapScale, gapsOf, webFigures} from './gaps';
 import {table} from './generic';
-import {bounds, frame, partner, placed, placedFrom, seenFrom, type Sizes} from './geometry';
+import {bounds, frame, partner, placed, placedFrom, seenFrom, strokesOf, type Sizes} from './geometry';
 import {sectionCharts, sectionReadings} from './section';
-import {edgesOf, outside, wallBetween} from './section_solid';
+import {edgesOf, girthOf, outside, wallBetween} from './section_solid';
 
 type Side = 'start' | 'finish';
 const sides: Side[] = ['start', 'finish'];
@@ -29,10 +30,14 @@ export function sectionPart({request, result}: Answer, sizes: Sizes): Picture {
     const asked = askedOf(request, side);
     if (!rowsOf(asked['cutters']).length) return []; // square: nothing to draw over the girth
     const drawn = sectionCharts(asked, endOf(side), section, `cut-${side}`);
-    return drawn.map((chart) => ({...chart, id: `${chart.id}-${side}`, title: `${sentence(side)}: ${chart.title}`}));
+    return drawn.map((chart) => ({...chart, id: `${chart.id}-${side}`, title: t('{part}: {text}', {part: sentence(choice(side)), text: chart.title})}));
   });
   const cutouts = rowsOf(result['cutouts']).reduce((sum, group) => sum + rowsOf(group['instances']).length, 0);
-  const ranges = sides.map((side) => `${sentence(side)}: ${rangeOf(column((endOf(side)['points'] as Row)['b_deg']))}.`);
+  const ranges = sides.map((side) => t('{part}: {text}.', {part: sentence(choice(side)), text: rangeOf(column((endOf(side)['points'] as Row)['b_deg']))}));
+  const first = [
+    t('{length} from tip to tip', {length: withUnit(Number(lengths['long_mm']), 'mm')}),
+    ...(cutouts ? [many(cutouts, 'with {n} cut-out', 'with {n} cut-outs')] : []),
+  ];
   return {
     solid: solidOf(request, result, sizes),
     charts,
@@ -43,7 +48,7 @@ export function sectionPart({request, result}: Answer, sizes: Sizes): Picture {
       facts('section', section),
     ],
     readout: (i, link) => sectionReadings(endOf(link === 'cut-finish' ? 'finish' : 'start')['points'] as Row, i),
-    said: `${withUnit(Number(lengths['long_mm']), 'mm')} from tip to tip${cutouts ? `, with ${plural(cutouts, 'cut-out')}` : ''}. ${ranges.join(' ')}`,
+    said: sentences(t('{text}.', {text: first.join(t(', '))}), ...ranges),
   };
 }
 
@@ -54,7 +59,10 @@ export function faceTable(result: Row): Table {
   const faces = sides.map((side) => rowsOf((ends[side] as Row)['faces']));
   // A blade is named only where one plane cuts the end.
   const keys = sides.flatMap((side, s) => ['angle_deg', 'saw_tilt_deg'].filter((key) => faces[s]?.some((face) => key in face)).map((key) => ({side, s, key})));
-  const head = ({side, key}: {side: Side; key: string}): Term => ({text: `${side}: ${label(key, 'faces')} °`, about: about(key, 'faces')});
+  const head = ({side, key}: {side: Side; key: string}): Term => ({
+    text: `${t('{part}: {text}', {part: choice(side), text: label(key, 'faces')})} °`,
+    about: about(key, 'faces'),
+  });
   const value = (row: Row | undefined, key: string) => (row && key in row ? shown(key, Number(row[key])) : '–');
   return {
     id: 'faces',
@@ -131,6 +139,11 @@ function solidOf(request: Row, result: Row, sizes: Sizes): Solid {
           const [x, y] = outside(section, Number(mark['girth_mm']));
           return {points: [mark['z_from_mm'], mark['z_to_mm']].map((z): Vector => [1.002 * x, 1.002 * y, Number(z)]), tone: 'mark'};
         }),
+      ...strokesOf(result, Math.max(0.5, 0.05 * Number(section['corner_radius_mm'])), (girth, z): Vector => {
+        const whole = girthOf(section);
+        const [x, y] = outside(section, ((girth % whole) + whole) % whole);
+        return [1.002 * x, 1.002 * y, z];
+      }).map((points) => ({points, tone: 'mark'})),
     ],
     partners: partnersOf(request, result, across, sizes),
     centre: [0, 0, (low + high) / 2],

@@ -37,8 +37,10 @@ export class Labels {
   }
 
   place(members: Members, camera: Camera, width: number, height: number, chosen: Set<number>, pointed: Set<number>, item: number | null): void {
-    const all = [...this.labels.keys()].filter((i) => this.labels.length <= most || chosen.has(i) || pointed.has(i));
-    const seen = new Map(all.map((i) => [i, members.place(i, camera.position).project(camera)]));
+    const wanted = [...this.labels.keys()].filter((i) => this.labels.length <= most || chosen.has(i) || pointed.has(i));
+    const places = wanted.map((i) => [i, members.place(i, camera.position)?.project(camera)] as const);
+    const seen = new Map(places.flatMap(([i, at]) => (at ? [[i, at] as const] : [])));
+    const all = [...seen.keys()];
     const lifted = (i: number) => chosen.has(i) || pointed.has(i); // above the highlighted ones
     const depth = (i: number) => (seen.get(i) as Vector3).z;
     const laid = (rank: (i: number) => number, lift: (i: number) => boolean, dots: {x: number; y: number}[]) => {

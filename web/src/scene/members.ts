@@ -9,6 +9,7 @@ import {
   type Matrix4,
   Mesh,
   type PerspectiveCamera,
+  type Plane,
   Ray,
   type Raycaster,
   Vector3,
@@ -34,6 +35,7 @@ export type Joint = NonNullable<Assembly['joints']>[number];
 /** The members of a frame: each part's meshes once, shown in each place that it is made for. */
 export class Members extends Group {
   readonly axes: Axis[];
+  planes: Plane[] = []; // of a section
   private readonly meshes: {mesh: InstancedMesh; of: number[]}[] = [];
 
   constructor(readonly assembly: Assembly) {
@@ -82,24 +84,28 @@ export class Members extends Group {
   }
 
   /** The members of an item. */
+  /** Whether a section leaves a point. */
+  private readonly kept = (point: Vector3) => this.planes.every((plane) => plane.distanceToPoint(point) >= 0);
+
   of(item: number | null): Set<number> {
     return new Set(item === null ? [] : this.assembly.lights[item]);
   }
 
   /**
    * Returns the position of a member's name: at its middle, or another point that no other member
-   * hides.
+   * hides; undefined if a section leaves nothing of it.
    */
-  place(i: number, eye: Vector3): Vector3 {
+  place(i: number, eye: Vector3): Vector3 | undefined {
     const {start, end} = this.axes[i] as Axis;
-    const places = [0.5, 0.35, 0.65, 0.2, 0.8, 0.08, 0.92].map((share) => start.clone().lerp(end, share));
+    const places = [0.5, 0.35, 0.65, 0.2, 0.8, 0.08, 0.92].map((share) => start.clone().lerp(end, share)).filter(this.kept);
     const open = places.find((at) => this.near(new Ray(eye, at.clone().sub(eye).normalize()), 0) === i);
-    return open ?? (places[0] as Vector3);
+    return open ?? places[0];
   }
 
   /** Where a joint is, if one of its members is the first to be seen there. */
   joint({at, of}: Joint, eye: Vector3): Vector3 | undefined {
     const place = new Vector3(...at);
+    if (!this.kept(place)) return undefined;
     const first = this.near(new Ray(eye, place.clone().sub(eye).normalize()), 0);
     return first === null || of.includes(first) ? place : undefined;
   }
@@ -121,7 +127,7 @@ export class Members extends Group {
 
   /** The member that is seen along a ray, else the one that it passes the closest, by the angle `slack` at most. */
   under(caster: Raycaster, slack: number): number | null {
-    const [first] = caster.intersectObjects(this.meshes.map(({mesh}) => mesh));
+    const first = caster.intersectObjects(this.meshes.map(({mesh}) => mesh)).find(({point}) => this.kept(point));
     const found = this.meshes.find(({mesh}) => mesh === first?.object);
     return found?.of[first?.instanceId as number] ?? this.near(caster.ray, slack);
   }
@@ -132,6 +138,7 @@ export class Members extends Group {
     let best = {i: -1, miss: slack, enters: Infinity};
     for (const [i, {bar, radius}] of this.axes.entries()) {
       const apart = Math.sqrt(Math.max(0, ray.distanceSqToSegment(...bar, on))); // below 0 by rounding
+      if (!this.kept(on)) continue;
       const depth = on.distanceTo(ray.origin);
       const miss = Math.max(0, apart - radius) / depth;
       const enters = depth - Math.sqrt(Math.max(0, radius ** 2 - apart ** 2));

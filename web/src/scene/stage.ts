@@ -14,8 +14,10 @@ import {
   WebGLRenderer,
   type BufferGeometry,
   type Object3D,
+  type Plane,
 } from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+import {t} from '../language';
 import {chosen, chosenTogether, listen, point, pointed} from '../links';
 import type {Solid, Vector} from '../picture';
 import {Labels} from './labels';
@@ -23,6 +25,7 @@ import {Members} from './members';
 import {Beam, Cone, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from './meshes';
 import {Measure, snapped} from './measure';
 import {openings} from './openings';
+import {boxOf, placeOf, planeOf, type Slice} from './slice';
 import {lens, refit, towards, type Side} from './views';
 
 // Drawn pixels per page pixel, in each direction. Without a graphics card one takes 30 ms and four
@@ -57,6 +60,7 @@ export class Stage {
   private fitted = 1; // the distance at which the model is seen whole
   private measure = new Measure();
   private measuring: ((points: [Vector3, Vector3] | undefined) => void) | null = null;
+  private slice: Slice | null = null;
   private turned = false; // by hand; until then the view fits the frame
 
   constructor(private readonly root: HTMLElement) {
@@ -109,7 +113,7 @@ export class Stage {
     this.before = before;
     this.renderer.domElement.setAttribute(
       'aria-label',
-      [`${label}.`, solid.told ? `${solid.told}.` : '', 'Arrow keys turn it, plus and minus zoom, Home resets.'].filter(Boolean).join(' '),
+      [`${label}.`, solid.told ? `${solid.told}.` : '', t('Arrow keys turn it, plus and minus zoom, Home resets.')].filter(Boolean).join(' '),
     );
     release(this.content);
     this.scene.remove(this.content);
@@ -137,6 +141,7 @@ export class Stage {
     this.cone = solid.tool?.kind === 'cone' ? new Cone(solid.tool) : null;
     if (this.cone) this.content.add(this.cone);
     this.scene.add(this.content);
+    this.cut();
     const view = JSON.stringify([job, solid.link, solid.eye, solid.up]);
     if (view !== this.seen) this.reset();
     else this.move(new Vector3(...solid.centre), refit(this.fitted, this.needed()));
@@ -197,11 +202,30 @@ export class Stage {
     this.draw();
   }
 
+  /** Leaves out one side of a plane, or nothing. Returns the plane's place, mm. */
+  sliced(slice: Slice | null): number | undefined {
+    this.slice = slice;
+    const at = this.cut();
+    this.draw();
+    return at;
+  }
+
+  private cut(): number | undefined {
+    const parts = this.content.children.filter((part) => ![this.partners, this.measure, this.beam].includes(part as Group));
+    const at = this.slice ? placeOf(this.slice, boxOf(parts)) : undefined;
+    this.renderer.clippingPlanes = this.slice && at !== undefined ? [planeOf(this.slice, at)] : [];
+    if (this.members) this.members.planes = this.renderer.clippingPlanes as Plane[];
+    return at;
+  }
+
+  /** Whether the plane leaves a point. */
+  private readonly kept = ({point: seen}: {point: Vector3}) => this.renderer.clippingPlanes.every((plane: Plane) => plane.distanceToPoint(seen) >= 0);
+
   private takePoint(event: MouseEvent): void {
     const solids: Object3D[] = [];
     for (const part of this.content.children)
       if (![this.partners, this.measure, this.beam].includes(part as Group)) part.traverse((node) => node instanceof Mesh && solids.push(node));
-    const hit = this.ray(event).intersectObjects(solids, false)[0];
+    const hit = this.ray(event).intersectObjects(solids, false).find(this.kept);
     if (!hit) return;
     const {clientWidth, clientHeight} = this.root;
     const at = this.content.worldToLocal(snapped(hit, this.camera, clientWidth, clientHeight).clone());
@@ -337,7 +361,7 @@ export class Stage {
     const ray = this.ray(event);
     const walls: Object3D[] = [];
     this.content.traverse((node) => node.name === 'wall' && walls.push(node));
-    const hit = ray.intersectObjects(walls)[0];
+    const hit = ray.intersectObjects(walls).find(this.kept);
     if (!hit) {
       point(this.solid.link, null);
       return;

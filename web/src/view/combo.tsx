@@ -1,5 +1,6 @@
 import type {Signal} from '@preact/signals';
 import {useId, useLayoutEffect, useRef, useState} from 'preact/hooks';
+import {t} from '../language';
 import {found, onlyOne} from '../search';
 
 interface Given {
@@ -88,7 +89,7 @@ export function Combo({value, names, placeholder, shared, change}: Given) {
           class="choices"
           role="listbox"
           popover="manual"
-          aria-label="Choices"
+          aria-label={t('Choices')}
           onPointerDown={(event) => event.preventDefault() /* the field keeps the focus */}
           onClick={(event) => event.preventDefault() /* and its label does not open the list again */}
         >

@@ -1,5 +1,6 @@
 import type {ComponentChildren} from 'preact';
 import {useLayoutEffect, useRef, useState} from 'preact/hooks';
+import {later, t} from '../language';
 import {listen, pointed} from '../links';
 
 interface Pressed {
@@ -23,7 +24,7 @@ interface Tabs {
   panel?: string;
 }
 /** Tabs, of which the arrow keys choose the neighbour. */
-export function TabBar({offered, chosen, choose, label = 'Details', panel = 'panel'}: Tabs) {
+export function TabBar({offered, chosen, choose, label = t('Details'), panel = 'panel'}: Tabs) {
   const root = useRef<HTMLDivElement>(null);
   const took = useRef(false);
   const take = (id: string) => {
@@ -76,14 +77,14 @@ export function useCursor(link: string): number | null {
 
 /** A button that copies, and reports whether it did. */
 export function Copier({name, text}: {name: string; text(): string}) {
-  const [said, say] = useState(name);
+  const [said, say] = useState<string | null>(null);
   const copy = async () => {
-    say((await copied(text())) ? 'Copied' : 'Could not copy');
-    setTimeout(() => say(name), 1500);
+    say((await copied(text())) ? later('Copied') : later('Could not copy'));
+    setTimeout(() => say(null), 1500);
   };
   return (
     <button type="button" onClick={copy}>
-      {said}
+      {said === null ? name : t(said)}
     </button>
   );
 }

@@ -1,5 +1,6 @@
 import type {Json, Row} from '../json';
 import {keyed} from '../key';
+import {t} from '../language';
 import {path} from '../service';
 import {Copier} from './controls';
 
@@ -20,11 +21,11 @@ function Block({title, id, value, curl: line}: {title: string; id: string; value
     <section class="block">
       <h3>
         {title}
-        <Copier name="Copy JSON" text={() => JSON.stringify(value, null, 2)} />
-        {line && <Copier name="Copy as curl" text={line} />}
+        <Copier name={t('Copy JSON')} text={() => JSON.stringify(value, null, 2)} />
+        {line && <Copier name={t('Copy as curl')} text={line} />}
       </h3>
       <pre id={id} tabIndex={0} role="group" aria-label={title}>
-        {text.length > most ? `${text.slice(0, most)}\n… (${text.length} characters; download it)` : text}
+        {text.length > most ? `${text.slice(0, most)}\n… ${t('({length} characters; download it)', {length: text.length})}` : text}
       </pre>
     </section>
   );
@@ -32,7 +33,7 @@ function Block({title, id, value, curl: line}: {title: string; id: string; value
 
 export const Exchange = ({endpoint, body, reply}: {endpoint: string; body: Row; reply: Json | object | undefined}) => (
   <div class="columns">
-    <Block title="Request" id="request-json" value={body} curl={() => curl(endpoint, body)} />
-    <Block title="Answer" id="answer-json" value={reply} />
+    <Block title={t('Request')} id="request-json" value={body} curl={() => curl(endpoint, body)} />
+    <Block title={t('Answer')} id="answer-json" value={reply} />
   </div>
 );

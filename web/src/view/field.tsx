@@ -4,6 +4,7 @@ import {useContext, useEffect, useRef} from 'preact/hooks';
 import {listed, nudge, scrub, typed, type Form} from '../form';
 import {called, hintOf, offered} from '../hint';
 import {at, isRow, type Json} from '../json';
+import {t} from '../language';
 import type {Schema} from '../schema';
 import {entered, shownUnit} from '../units';
 import {choice, lastKey, sentence, unit} from '../words';
@@ -34,20 +35,32 @@ export function short(form: Form, schema: Schema): boolean {
   return schema.type === 'array' && item !== undefined && !item.properties && !item.oneOf && (schema.maxItems ?? 99) <= inlineList;
 }
 
+/** Texts, one a line. */
+export const texts = (form: Form, schema: Schema): boolean => schema.type === 'array' && form.contract.resolve(schema.items ?? {}).type === 'string';
+
 /** Complaints about the value of a pointer. */
 export function Complaints({at: pointer}: {at: string}) {
   const {complaints} = useForm();
   const own = useComputed(() => complaints.value.get(pointer)).value;
   return own ? (
     <>
-      {own.map(({id, text}) => (
+      {own.map(({id, text, original}) => (
         <p key={id} class="complaint" id={id}>
           {text}
+          <Original text={original} />
         </p>
       ))}
     </>
   ) : null;
 }
+
+/** The service's own English words, small under their Chinese. */
+export const Original = ({text}: {text: string}) =>
+  text ? (
+    <small class="original" lang="en">
+      {text}
+    </small>
+  ) : null;
 
 /** Links an element to its complaints for screen readers, without drawing anything anew. */
 export function useTold(pointer: string) {
@@ -72,7 +85,7 @@ export function Field({schema, value, pointer, required = false}: Value & {requi
       <span class="box">
         <Input schema={schema} value={value} pointer={pointer} name={called(pointer)} />
         {mark && (
-          <span class="unit" title="Drag to change" onPointerDown={scrub}>
+          <span class="unit" title={t('Drag to change')} onPointerDown={scrub}>
             {shownUnit(mark)}
           </span>
         )}
@@ -98,6 +111,7 @@ export function Input(given: Value & {name: string}) {
     const checked = (value ?? schema.default) === true;
     return <input type="checkbox" {...shared} checked={checked} onChange={(event) => form.write(pointer, event.currentTarget.checked)} />;
   }
+  if (texts(form, schema) && lined(value)) return <Lines {...given} shared={shared} />;
   if (schema.type === 'array' || isRow(value) || Array.isArray(value)) return <List value={value} pointer={pointer} shared={shared} />;
   return Number(given.schema.maxLength) >= fileText ? <FileText {...given} shared={shared} /> : <Text {...given} shared={shared} />;
 }
@@ -193,15 +207,15 @@ function FileText({value, pointer, shared}: Value & {shared: object}) {
       <textarea
         rows={4}
         spellcheck={false}
-        placeholder="Paste the text of the file, or open it"
+        placeholder={t('Paste the text of the file, or open it')}
         value={String(value ?? '')}
         {...shared}
         {...useTyping((text) => form.write(pointer, text === '' ? undefined : text))}
       />
       <button type="button" class="open-file" onClick={() => input.current?.click()}>
-        Open file
+        {t('Open file')}
       </button>
-      <input ref={input} type="file" hidden aria-label={`A file for ${lastKey(pointer)}`} onChange={(event) => void chose(event)} />
+      <input ref={input} type="file" hidden aria-label={t('A file for {field}', {field: lastKey(pointer)})} onChange={(event) => void chose(event)} />
     </>
   );
 }
@@ -211,7 +225,7 @@ function Select({schema, value, pointer, choices, shared}: Value & {choices: Jso
   const otherwise = useComputed(() => {
     const echo = at(form.echo.value, pointer);
     const taken = at(form.body, pointer) === undefined && echo !== undefined && typeof echo !== 'object' ? echo : schema.default;
-    return taken === undefined ? '' : `${choice(taken)} (default)`;
+    return taken === undefined ? '' : t('{value} (default)', {value: choice(taken)});
   });
   const change = (text: string) => form.write(pointer, text === '' ? undefined : (JSON.parse(text) as Json));
   return (
@@ -224,6 +238,15 @@ function Select({schema, value, pointer, choices, shared}: Value & {choices: Jso
       ))}
     </select>
   );
+}
+
+const lined = (value: Json | undefined) => value === undefined || (Array.isArray(value) && value.every((each) => typeof each === 'string'));
+
+function Lines({value, pointer, shared}: Value & {shared: object}) {
+  const form = useForm();
+  const all = Array.isArray(value) ? value : [];
+  const typing = useTyping((text) => form.write(pointer, text.split('\n').filter(Boolean)));
+  return <textarea rows={Math.min(8, Math.max(1, all.length))} spellcheck={false} {...shared} value={all.join('\n')} {...typing} />;
 }
 
 /** Lists: a few numbers on a line, many in a box. */

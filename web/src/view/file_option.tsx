@@ -1,5 +1,6 @@
 import {isTabled, type Option, type Values} from '../files';
-import {choice, label, plain, sentence, unit} from '../words';
+import {chinese, t} from '../language';
+import {about, choice, label, plain, sentence, unit} from '../words';
 
 interface Given {
   option: Option;
@@ -9,6 +10,9 @@ interface Given {
   complaint: string | undefined;
   change(value: string): void;
 }
+
+/** A description of the contract; if it is not translated, the sentence of the glossary. */
+const explained = (description: string, name: string) => (chinese() && t(description) === description ? about(name, 'download') : plain(t(description)));
 
 /** One option of a file: a choice, ticks or a value, and what is said against it. */
 export function FileOption(given: Given) {
@@ -28,7 +32,7 @@ export function FileOption(given: Given) {
       </div>
     );
   return (
-    <label class="field" title={plain(description)}>
+    <label class="field" title={explained(description, name)}>
       <span class="name">{sentence(label(name, 'download'))}</span>
       <span class="box">
         <Entry {...given} described={id} />
@@ -52,7 +56,7 @@ function Ticks({option: {name, description, schema}, values, listed, change}: Gi
     );
   if (!offered.length) return null;
   return (
-    <fieldset class="field ticks" title={plain(description)}>
+    <fieldset class="field ticks" title={explained(description, name)}>
       <legend class="name">{sentence(label(name, 'download'))}</legend>
       {offered.map(([each, text]) => (
         <label key={each} class="tick">
@@ -72,7 +76,7 @@ function Entry({option: {name, schema}, values, listed, complaint, change, descr
   if (choices)
     return (
       <select {...shared} onChange={(event) => change(event.currentTarget.value)}>
-        <option value="">{schema.default === undefined ? '–' : `${choice(schema.default)} (default)`}</option>
+        <option value="">{schema.default === undefined ? '–' : t('{value} (default)', {value: choice(schema.default)})}</option>
         {choices.map(([each, text]) => (
           <option key={each} value={each}>
             {text}
@@ -80,7 +84,7 @@ function Entry({option: {name, schema}, values, listed, complaint, change, descr
         ))}
       </select>
     );
-  const otherwise = isTabled(name, values) ? 'from the table' : String(schema.default ?? '');
+  const otherwise = isTabled(name, values) ? t('from the table') : String(schema.default ?? '');
   const numeric = schema.type === 'number' || schema.type === 'integer';
   return (
     <input

@@ -4,12 +4,13 @@ import {roomy, runsOf, type Form} from '../form';
 import {freeName} from '../frame/members';
 import {called, hintOf} from '../hint';
 import {at, isRow, join, put, type Json, type Row} from '../json';
+import {t} from '../language';
 import {brief} from '../names';
 import type {Schema} from '../schema';
 import {shownUnit} from '../units';
 import {lastKey, sentence, unit} from '../words';
 import {partnerTone, Swatch} from './controls';
-import {Complaints, Field, Fields, Input, short, simple, useForm, useTold, type Value} from './field';
+import {Complaints, Field, Fields, Input, short, simple, texts, useForm, useTold, type Value} from './field';
 import {followFocus} from './hint';
 
 const aside = new Set(['log', 'numerics', 'columns']); // belong to programs
@@ -82,7 +83,7 @@ function Parts({schema: given, value, pointer}: Value) {
   const chosen = pointer ? branches.indexOf(branch) : names.indexOf(named[branches.indexOf(branch)] as string);
   return (
     <>
-      <Way pointer={pointer} title={pointer ? hintOf(schema, pointer) : 'Form of the job.'} names={names} chosen={chosen} change={change} />
+      <Way pointer={pointer} title={pointer ? hintOf(schema, pointer) : t('Form of the job.')} names={names} chosen={chosen} change={change} />
       <Inner schema={shown} value={value} pointer={pointer} />
     </>
   );
@@ -92,9 +93,9 @@ function Way({pointer, title, names, chosen, change}: {pointer: string; title: s
   return (
     <>
       <div class="field branch">
-        {pointer === '' && <span class="name">Given by</span>}
+        {pointer === '' && <span class="name">{t('Given by')}</span>}
         <select
-          aria-label={pointer ? called(pointer) : 'Given by'}
+          aria-label={pointer ? called(pointer) : t('Given by')}
           title={title}
           data-holds={pointer || undefined}
           value={String(chosen)}
@@ -130,7 +131,8 @@ function Members({schema, value, pointer}: Value & {value: Row}) {
     const member = {schema: form.contract.resolve(inner), value: value[key], pointer: join(pointer, key)};
     if ('const' in member.schema) continue;
     const required = schema.required?.includes(key) ?? false;
-    if (simple(form, member.schema) || short(form, member.schema)) small.push(<Field key={key} {...member} required={required} />);
+    if (simple(form, member.schema) || short(form, member.schema) || (required && texts(form, member.schema)))
+      small.push(<Field key={key} {...member} required={required} />);
     else if (key in value || required) large.push(<Group key={key} {...member} required={required} />);
     else if (!form.contract.fixed(member.schema)) absent.push(<Offer key={key} schema={member.schema} pointer={member.pointer} />);
   }
@@ -161,7 +163,7 @@ function Offer({schema, pointer}: {schema: Schema; pointer: string}) {
 
 function Remover({name, pointer, act}: {name: string; pointer: string; act(): void}) {
   return (
-    <button type="button" class="remove" aria-label={`Remove ${name}`} title={`Remove ${name}`} data-removes={pointer} onClick={act}>
+    <button type="button" class="remove" aria-label={t('Remove {name}', {name})} title={t('Remove {name}', {name})} data-removes={pointer} onClick={act}>
       ×
     </button>
   );
@@ -174,7 +176,7 @@ function Stranger({pointer}: {pointer: string}) {
     <>
       <div class="group">
         <p class="stranger" tabIndex={-1} data-holds={pointer}>
-          {sentence(called(pointer))} <span class="soft">does not apply here</span>
+          {sentence(called(pointer))} <span class="soft">{t('does not apply here')}</span>
         </p>
         <Remover name={called(pointer)} pointer={pointer} act={() => form.put(pointer, undefined)} />
       </div>
@@ -252,8 +254,8 @@ function List({schema, value, pointer}: Value & {value: Json}) {
       <div class="offers">
         {/* Not a list to choose from: by the keyboard its first choice would be made on the way to the others. */}
         {branches.map((branch) => {
-          const name = branches.length === 1 ? 'add' : contract.branchName(branches, branch);
-          const title = `Add to ${called(pointer)}`;
+          const name = branches.length === 1 ? t('add') : contract.branchName(branches, branch);
+          const title = t('Add to {list}', {list: called(pointer)});
           return (
             <button
               type="button"
@@ -282,17 +284,27 @@ function ChosenRow({schema, value, pointer}: Value & {value: Json}) {
   const items = Array.isArray(value) ? value : [];
   const {row} = form.selection;
   const at = Math.min(row.value ?? 0, items.length - 1);
-  if (at < 0) return <p class="soft">Add one in the table.</p>;
+  if (at < 0) return <p class="soft">{t('Add one in the table.')}</p>;
   return (
     <>
       <p class="walker">
-        <button type="button" aria-label="Previous row" title="Show the previous row" disabled={at === 0} onClick={() => form.selection.choose(at - 1)}>
+        <button
+          type="button"
+          aria-label={t('Previous row')}
+          title={t('Show the previous row')}
+          disabled={at === 0}
+          onClick={() => form.selection.choose(at - 1)}
+        >
           ‹
         </button>
-        <span class="soft">
-          {at + 1} of {items.length}; all of them are in the table
-        </span>
-        <button type="button" aria-label="Next row" title="Show the next row" disabled={at === items.length - 1} onClick={() => form.selection.choose(at + 1)}>
+        <span class="soft">{t('{row} of {rows}; all of them are in the table', {row: at + 1, rows: items.length})}</span>
+        <button
+          type="button"
+          aria-label={t('Next row')}
+          title={t('Show the next row')}
+          disabled={at === items.length - 1}
+          onClick={() => form.selection.choose(at + 1)}
+        >
           ›
         </button>
       </p>
@@ -321,7 +333,7 @@ function Rows({kind, items, pointer, first}: {kind: Schema; items: Json[]; point
             <td />
             {columns.map(({key, schema}) => (
               <th key={key} scope="col" title={hintOf(schema, join(head, key))}>
-                {sentence(brief(key, called(join(head, key))))}
+                {sentence(t(brief(key, called(join(head, key)))))}
                 <small>{shownUnit(unit(key))}</small>
               </th>
             ))}
@@ -355,7 +367,7 @@ function Line({item, columns, pointer, index}: {item: Json; columns: Column[]; p
           );
         })}
         <td>
-          <Remover name={`row ${index + 1}`} pointer={pointer} act={() => form.removeRow(pointer)} />
+          <Remover name={t('row {row}', {row: index + 1})} pointer={pointer} act={() => form.removeRow(pointer)} />
         </td>
       </tr>
       <LineComplaints pointer={pointer} />
@@ -386,7 +398,7 @@ function Card({schema, value, pointer, index}: Value & {value: Json; index: numb
       <div class="card-head" tabIndex={-1} data-holds={pointer}>
         <Swatch tone={partnerTone(index)} />
         <b>{name}</b>
-        <Remover name={`row ${index + 1}`} pointer={pointer} act={() => form.removeRow(pointer)} />
+        <Remover name={t('row {row}', {row: index + 1})} pointer={pointer} act={() => form.removeRow(pointer)} />
       </div>
       {headed(form, form.contract.resolve(schema), value) && <Complaints at={pointer} />}
       <Parts schema={schema} value={value} pointer={pointer} />

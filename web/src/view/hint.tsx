@@ -1,5 +1,6 @@
 import {signal} from '@preact/signals';
 import frame from '../../../docs/frame.svg';
+import {t} from '../language';
 import {lastKey} from '../words';
 
 // The four drawings of docs/frame.svg, and the names of the fields that each explains.
@@ -31,9 +32,9 @@ export function Hint() {
   // Under the form and as high whatever it says: if it came and went with the focus, the form would move away under the pointer, or it would cover
   // what is clicked.
   return (
-    <aside id="hint">
+    <div id="hint">
       {view && <img src={`${frame}#svgView(viewBox(${view}))`} width={120} height={105} alt="" />}
-      {told ? <p>{told}</p> : <p class="soft">Choose a field to see what it means.</p>}
-    </aside>
+      {told ? <p>{told}</p> : <p class="soft">{t('Choose a field to see its meaning.')}</p>}
+    </div>
   );
 }

@@ -1,5 +1,6 @@
 import {useLayoutEffect, useMemo, useRef, useState} from 'preact/hooks';
 import type {Row} from '../json';
+import {t} from '../language';
 import {chosen, listen, point, pointed} from '../links';
 import type {Inspected, Item} from '../picture';
 import {sentence} from '../words';
@@ -44,11 +45,19 @@ export function Inspector({given, item, ways}: {given: Inspected; item: number |
   if (!shown) return null;
   return (
     <>
-      <TabBar offered={lists.map(({id, title, items}) => [id, `${title} (${items.length})`])} chosen={shown.id} choose={turn} label="Lists" panel="items" />
+      <TabBar
+        offered={lists.map(({id, title, items}) => [id, `${title} (${items.length})`])}
+        chosen={shown.id}
+        choose={turn}
+        label={t('Lists')}
+        panel="items"
+      />
       <List link={link} title={shown.title} items={shown.items.slice(0, most)} first={start(shown.id)} />
-      {shown.items.length > most && <p class="soft">{`The first ${most} of ${shown.items.length}; the others are chosen in the picture.`}</p>}
-      <div class="facts" aria-live="polite" tabIndex={0} role="group" aria-label="What is chosen">
-        {told ? <Facts item={told} link={link} ways={ways} /> : <p class="soft">Choose one in the list or in the picture.</p>}
+      {shown.items.length > most && (
+        <p class="soft">{t('The first {most} of {all}; the others are chosen in the picture.', {most, all: shown.items.length})}</p>
+      )}
+      <div class="facts" aria-live="polite" tabIndex={0} role="group" aria-label={t('The chosen item')}>
+        {told ? <Facts item={told} link={link} ways={ways} /> : <p class="soft">{t('Choose one in the list or in the picture.')}</p>}
       </div>
     </>
   );

@@ -1,6 +1,7 @@
 import {useLayoutEffect, useRef} from 'preact/hooks';
 import {fileName} from './downloads';
 import {useConsole} from './page';
+import {t} from '../language';
 
 /** A job as a file: to keep, and to open again, also by dropping it on the page. */
 export function Jobs() {
@@ -34,14 +35,14 @@ export function Jobs() {
       <button
         id="open-job"
         type="button"
-        title="A job out of a file: a request as JSON, such as request.json of a packet. It can be dropped here too"
+        title={t('A job out of a file: a request as JSON, such as request.json of a packet. It can be dropped here too')}
         onClick={() => input.current?.click()}
       >
-        Open job
+        {t('Open job')}
       </button>
-      <input ref={input} type="file" id="job-file" accept=".json,application/json" hidden aria-label="A job to open" onChange={chose} />
-      <button id="save-job" type="button" title="The request of this job as a file" onClick={() => console.saveJob(name())}>
-        Save job
+      <input ref={input} type="file" id="job-file" accept=".json,application/json" hidden aria-label={t('A job to open')} onChange={chose} />
+      <button id="save-job" type="button" title={t('The request of this job as a file')} onClick={() => console.saveJob(name())}>
+        {t('Save job')}
       </button>
     </>
   );

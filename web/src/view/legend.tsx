@@ -1,4 +1,5 @@
 import {lettered} from '../charts';
+import {t} from '../language';
 import type {Chart} from '../picture';
 import {number, withUnit} from '../words';
 import {useCursor} from './controls';
@@ -16,30 +17,31 @@ interface Given {
 export function Caption({chart, hidden, hide, whole}: Given) {
   const {title, unit, series, bands = [], marks = []} = chart;
   const others = new Map([...bands, ...(lettered(chart) ? [] : marks)].map(({text, tone}) => [text, tone]));
+  const turned = (name: string) => (hidden.has(name) ? t('Click to show it.') : t('Click to hide it.'));
   const pressed = (name: string) => ({type: 'button' as const, class: 'key', 'aria-pressed': !hidden.has(name), onClick: () => hide(name)});
   return (
     <figcaption>
       <b>
         {title}
-        <small>{unit ? `, ${unit}` : ''}</small>
+        <small>{unit ? `, ${t(unit)}` : ''}</small>
       </b>
       <span class="keys">
         {series.map(({name, tone, dash, about}) => (
-          <button key={name} {...pressed(name)} title={`${about ? `${about} ` : ''}Click to ${hidden.has(name) ? 'show' : 'hide'} it.`}>
+          <button key={name} {...pressed(name)} title={[about, turned(name)].filter(Boolean).join(' ')}>
             <i class={dash ? 'dashed' : ''} style={{borderColor: `var(--${tone})`}} />
             {name}
           </button>
         ))}
         {[...others].map(([text, tone]) => (
-          <button key={text} {...pressed(text)} title={`Click to ${hidden.has(text) ? 'show' : 'hide'} it.`}>
+          <button key={text} {...pressed(text)} title={turned(text)}>
             <i class="patch" style={{background: `var(--${tone})`}} />
             {text}
           </button>
         ))}
       </span>
       {whole && (
-        <button type="button" class="unzoom" title="Show the whole axis again (double click, or 0)" onClick={whole}>
-          Whole axis
+        <button type="button" class="unzoom" title={t('Show the whole axis again (double click, or 0)')} onClick={whole}>
+          {t('Whole axis')}
         </button>
       )}
     </figcaption>

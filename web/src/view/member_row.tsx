@@ -1,5 +1,6 @@
 import {cellValue, columns, impliedOf, type Column, type Sizes} from '../frame/members';
 import type {Row} from '../json';
+import {later, t} from '../language';
 import {entered, shownUnit} from '../units';
 import {number, sentence, unit} from '../words';
 import {Swatch} from './controls';
@@ -32,7 +33,7 @@ export function MemberRow({row, place, member, sizes, chosen, active, column, ed
   return (
     <div role="row" aria-rowindex={place + 2} aria-selected={chosen} class={active ? 'active' : undefined} style={{transform: `translateY(${place * tall}px)`}}>
       <span role="gridcell" class="pick-row">
-        <input type="checkbox" tabIndex={-1} aria-label={`Choose row ${row + 1}`} checked={chosen} onChange={() => acts.pick(row)} />
+        <input type="checkbox" tabIndex={-1} aria-label={t('Choose row {row}', {row: row + 1})} checked={chosen} onChange={() => acts.pick(row)} />
         <Swatch tone={tone} />
       </span>
       {columns.map((each, k) => {
@@ -64,7 +65,7 @@ export function MemberRow({row, place, member, sizes, chosen, active, column, ed
 const Editor = ({column, row, text, acts}: {column: Column; row: number; text: string; acts: RowActs}) => (
   <input
     ref={focused}
-    aria-label={`${headOf(column)}, row ${row + 1}`}
+    aria-label={t('{column}, row {row}', {column: headOf(column), row: row + 1})}
     list={column.id === 'size' ? 'tube-sizes' : undefined}
     value={text}
     onFocus={acts.begun}
@@ -85,10 +86,22 @@ function refused(marked: ReadonlySet<string>, row: number, {key, axis}: Column):
   return marked.has(pointer) || (axis !== undefined && marked.has(`${pointer}/${axis}`));
 }
 
-const names: Record<string, string> = {id: 'name', diameter: 'Ø'};
+const names: Record<string, string> = {
+  id: later('name'),
+  diameter: 'Ø',
+  'start x': later('start x'),
+  'start y': later('start y'),
+  'start z': later('start z'),
+  'end x': later('end x'),
+  'end y': later('end y'),
+  'end z': later('end z'),
+  size: later('size'),
+  wall: later('wall'),
+  priority: later('priority'),
+};
 export function headOf({id, key, axis}: Column): string {
   const mark = unit(key);
-  return sentence(names[id] ?? id) + (mark && !axis ? ` ${shownUnit(mark)}` : '');
+  return sentence(t(names[id] ?? id)) + (mark && !axis ? ` ${shownUnit(mark)}` : '');
 }
 
 /** A cell's value in full, as it is edited. */

@@ -20,6 +20,7 @@ import {
 } from '../frame/members';
 import type {Row} from '../json';
 import {standings, told, toneOf} from '../pictures/frame_items';
+import {many, t} from '../language';
 import {quantity} from '../units';
 import {choice, unit} from '../words';
 import {cellText, headOf, MemberRow, tall, type RowActs} from './member_row';
@@ -120,12 +121,12 @@ export function MembersTable() {
   const remove = () => {
     const gone = new Set(picked());
     if (!gone.size) return;
-    if (gone.size === members.length) return say('A frame has at least one member.');
+    if (gone.size === members.length) return say(t('A frame has at least one member.'));
     const next = rows.find((row) => row > Math.max(...gone));
     selection.choose(next === undefined ? null : next - gone.size);
     form.change((copy) => removeMembers(copy, gone));
     keep(form.body);
-    say(`${gone.size} ${gone.size === 1 ? 'member' : 'members'} removed, with their joints.`);
+    say(many(gone.size, '{n} member removed, with their joints.', '{n} members removed, with their joints.'));
   };
   const restore = () => {
     form.go(-1);
@@ -134,7 +135,7 @@ export function MembersTable() {
   const fill = () => {
     const column = columns[at.column] as Column;
     form.change((copy) => fillDown(copy, picked(), column, sizes));
-    say(`${headOf(column)} filled down in ${picked().length} rows.`);
+    say(t('{column} filled down in {n} rows.', {column: headOf(column), n: picked().length}));
   };
   const paste = (text: string) => {
     const cells = cellsOf(text);
@@ -143,7 +144,7 @@ export function MembersTable() {
       written = pasteCells(copy, cells, rows, at, sizes);
     });
     selection.choose(written[0] as number, written);
-    say(`${written.length} ${written.length === 1 ? 'row' : 'rows'} pasted.`);
+    say(many(written.length, '{n} row pasted.', '{n} rows pasted.'));
   };
 
   const keydown = (event: KeyboardEvent) => {
@@ -199,21 +200,21 @@ export function MembersTable() {
   const there = [...new Set(made.values())];
   const heading = (column: Column) => () => sort((was) => (was?.column !== column ? {column, falling: false} : was.falling ? null : {column, falling: true}));
   return (
-    <section id="members" class="block" aria-label="Members">
+    <section id="members" class="block" aria-label={t('Members')}>
       <h3>
-        Members
-        <span class="soft">{rows.length === members.length ? rows.length : `${rows.length} of ${members.length}`}</span>
+        {t('Members')}
+        <span class="soft">{rows.length === members.length ? rows.length : t('{some} of {all}', {some: rows.length, all: members.length})}</span>
       </h3>
       <div class="bar">
         <input
           type="search"
-          aria-label="Search members"
-          placeholder="Search name or size"
+          aria-label={t('Search members')}
+          placeholder={t('Search name or size')}
           value={search}
           onInput={(event) => find(event.currentTarget.value)}
         />
-        <select aria-label="Show members by verdict" value={standing} onChange={(event) => filter(event.currentTarget.value)}>
-          <option value="">all verdicts</option>
+        <select aria-label={t('Show members by verdict')} value={standing} onChange={(event) => filter(event.currentTarget.value)}>
+          <option value="">{t('all verdicts')}</option>
           {standings
             .filter((each) => there.includes(each))
             .map((each) => (
@@ -223,33 +224,33 @@ export function MembersTable() {
             ))}
         </select>
         <button type="button" id="member-add" onClick={add}>
-          Add
+          {t('Add')}
         </button>
         <button
           type="button"
           id="member-fill"
-          title="Copies the column of the active cell from the first chosen row (Ctrl+D)"
+          title={t('Copies the column of the active cell from the first chosen row (Ctrl+D)')}
           disabled={chosen.size < 2}
           onClick={fill}
         >
-          Fill down
+          {t('Fill down')}
         </button>
         <button type="button" id="member-delete" disabled={chosen.size === 0} onClick={remove}>
-          {chosen.size > 1 ? `Delete ${chosen.size}` : 'Delete'}
+          {chosen.size > 1 ? t('Delete {n}', {n: chosen.size}) : t('Delete')}
         </button>
         <button
           type="button"
           id="member-save"
-          title="As text for a spreadsheet"
+          title={t('As text for a spreadsheet')}
           onClick={() => save('members.tsv', new Blob([copyCells(body, rows)], {type: 'text/tab-separated-values'}))}
         >
-          Save table
+          {t('Save table')}
         </button>
         <span class="soft" role="status">
           {said}
           {removed === body && (
             <button type="button" id="member-undo" onClick={restore}>
-              Undo
+              {t('Undo')}
             </button>
           )}
         </span>
@@ -259,7 +260,7 @@ export function MembersTable() {
         class="sheet"
         role="grid"
         tabIndex={0}
-        aria-label="Members. Enter changes a cell, Space chooses a row, Ctrl+V pastes from a spreadsheet."
+        aria-label={t('Members. Enter changes a cell, Space chooses a row, Ctrl+V pastes from a spreadsheet.')}
         aria-multiselectable="true"
         aria-rowcount={rows.length + 1}
         aria-activedescendant={place >= first && place < last ? `cell-${at.row}-${at.column}` : undefined}
@@ -278,13 +279,13 @@ export function MembersTable() {
       >
         <div role="row" class="head" aria-rowindex={1}>
           <span role="columnheader">
-            <span class="offscreen">Chosen</span>
+            <span class="offscreen">{t('Chosen')}</span>
           </span>
           {columns.map((column) => {
             const sorted = order?.column === column ? (order.falling ? 'descending' : 'ascending') : 'none';
             return (
               <span role="columnheader" key={column.id} aria-sort={sorted} class={column.textual ? undefined : 'numeric'}>
-                <button type="button" tabIndex={-1} title={`Sort by ${headOf(column)}`} onClick={heading(column)}>
+                <button type="button" tabIndex={-1} title={t('Sort by {column}', {column: headOf(column)})} onClick={heading(column)}>
                   {headOf(column)}
                 </button>
               </span>
@@ -310,7 +311,7 @@ export function MembersTable() {
           ))}
         </div>
       </div>
-      <p class="soft">Of two members that join, the smaller priority number cuts the other; of two alike, the earlier one.</p>
+      <p class="soft">{t('Of two members that join, the smaller priority number cuts the other; of two alike, the earlier one.')}</p>
     </section>
   );
 }

@@ -1,7 +1,8 @@
 import {useLayoutEffect, useRef, useState} from 'preact/hooks';
 import type {Imported, ImportedPart} from '../importer';
 import {clone, type Row} from '../json';
-import {endings, kinds, type Answers, type Question} from '../model';
+import {many, t} from '../language';
+import {asksAgain, columnChoices, endings, kinds, type Answers, type Question} from '../model';
 import type {Order, Reading} from '../reading';
 
 interface Opened {
@@ -10,16 +11,23 @@ interface Opened {
   questions?: Question[];
   failure?: unknown;
   read?(answers: Answers): Promise<Imported | ImportedPart>;
+  /** The questions as they are after some answers. */
+  ask?(answers: Answers): Promise<Question[]>;
+  /** A table is pasted here. */
+  pasted?: boolean;
 }
 interface Given {
   schedules: string[];
   job: number;
   body: Row;
   shown: boolean;
+  /** Is the page that of frames, which a table becomes? */
+  frames: boolean;
   /** Begins a job of the page with this request. */
   take(page: 'frames' | 'parts', request: Row): void;
 }
 
+const said = (questions: Question[] = []): Answers => Object.fromEntries(questions.map(({key, value = ''}) => [key, value]));
 const reason = (failure: unknown) => (failure instanceof Error ? failure.message : String(failure));
 
 /** Of the page; the worker of the last model serves the next. */
@@ -33,7 +41,7 @@ async function opened(file: File, schedules: string[]): Promise<Opened> {
   const {name} = file;
   try {
     const ending = name.toLowerCase().replace(/^.*\./, '');
-    if (!Object.hasOwn(kinds, ending)) throw new Error(`Its ending is not one of ${endings.join(', ')}.`);
+    if (!Object.hasOwn(kinds, ending)) throw new Error(t('Its ending is not one of {endings}.', {endings: endings.join(', ')}));
     const [worker, buffer] = await Promise.all([reading(), file.arrayBuffer()]);
     const order: Order = {ending, file: new Uint8Array(buffer), schedules};
     const told = await worker.ask(order);
@@ -42,8 +50,12 @@ async function opened(file: File, schedules: string[]): Promise<Opened> {
       ...('questions' in told ? {questions: told.questions} : {}),
       read: async (answers) => {
         const found = await worker.ask({...order, answers});
-        if (!('imported' in found)) throw new Error('There is no answer.');
+        if (!('imported' in found)) throw new Error(t('There is no answer.'));
         return found.imported;
+      },
+      ask: async (answers) => {
+        const again = await worker.ask({...order, answers, again: true});
+        return 'questions' in again ? again.questions : [];
       },
     };
   } catch (failure) {
@@ -52,7 +64,7 @@ async function opened(file: File, schedules: string[]): Promise<Opened> {
 }
 
 /** An opened model: its button, also a place to drop it, and its messages next to the form. */
-export function useModel({schedules, job, body, shown, take}: Given) {
+export function useModel({schedules, job, body, shown, frames, take}: Given) {
   const [model, say] = useState<Opened | undefined>();
   const [found, find] = useState<Imported | ImportedPart | {failure: unknown} | undefined>();
   const [button, input] = [useRef<HTMLButtonElement>(null), useRef<HTMLInputElement>(null)];
@@ -79,15 +91,31 @@ export function useModel({schedules, job, body, shown, take}: Given) {
     find(undefined);
     const each = await opened(file, schedules);
     if (mine !== turn.current) return;
-    answers.current = Object.fromEntries((each.questions ?? []).map(({key, value = ''}) => [key, value]));
+    answers.current = said(each.questions);
     say(each);
     await read(each);
+  };
+  const answer = async (each: Opened, key: string, value: string) => {
+    answers.current = {...answers.current, [key]: value};
+    let now = each;
+    if (asksAgain.includes(key)) {
+      const questions = await each.ask?.(answers.current).catch(() => undefined);
+      if (!questions) return;
+      answers.current = {...answers.current, columns: said(questions)['columns'] ?? ''};
+      now = {...each, questions};
+      say(now);
+    }
+    await read(now);
   };
   const end = () => {
     if (model) void reader?.then((each) => each.end());
     turn.current += 1;
     given.current = undefined;
     say(undefined);
+  };
+  const paste = () => {
+    end();
+    say({name: t('Pasted table'), pasted: true});
   };
   const close = () => {
     end();
@@ -129,29 +157,30 @@ export function useModel({schedules, job, body, shown, take}: Given) {
         ref={button}
         id="model"
         type="button"
-        title="IFC, PCF, DXF and CSV become a frame, NC1 becomes a part. A file can be dropped here too"
+        title={t('IFC, PCF, DXF and CSV become a frame, NC1 becomes a part. A file can be dropped here too')}
         hidden={!shown}
         onClick={() => input.current?.click()}
       >
-        Open a model
+        {t('Open a model')}
       </button>
-      <input ref={input} type="file" id="model-file" accept={endings.join(',')} hidden aria-label="A model to open" onChange={chose} />
+      <button id="paste-table" type="button" title={t('Members from a spreadsheet, in any order of columns')} hidden={!frames} onClick={paste}>
+        {t('Paste a table')}
+      </button>
+      <input ref={input} type="file" id="model-file" accept={endings.join(',')} hidden aria-label={t('A model to open')} onChange={chose} />
     </>
   );
   const told = (
-    <section id="imported" aria-label="The model" aria-live="polite" hidden={!model}>
+    <section id="imported" aria-label={t('The model')} aria-live="polite" hidden={!model}>
       {model && <Heading model={model} close={close} />}
+      {model?.pasted && <Pasted take={(text) => void open(new File([text], `${t('Pasted table')}.txt`))} />}
       {model?.questions && (
         <div class="questions" key={model.name}>
           {model.questions.map((question) => (
             <Asked
-              key={question.key}
+              key={question.table ? question.value : question.key}
               question={question}
               value={answers.current[question.key] ?? ''}
-              answer={(value) => {
-                answers.current = {...answers.current, [question.key]: value};
-                void read(model);
-              }}
+              answer={(value) => void answer(model, question.key, value)}
             />
           ))}
         </div>
@@ -164,20 +193,95 @@ export function useModel({schedules, job, body, shown, take}: Given) {
 }
 
 const Heading = ({model, close}: {model: Opened; close(): void}) =>
-  model.questions || model.failure !== undefined ? (
+  model.questions || model.pasted || model.failure !== undefined ? (
     <h3>
       {model.name}
-      <button type="button" class="right" aria-label="Close the messages about the model" onClick={close}>
-        Close
+      <button type="button" class="right" aria-label={t('Close the messages about the model')} onClick={close}>
+        {t('Close')}
       </button>
     </h3>
   ) : (
-    <p class="soft">Reading {model.name} …</p>
+    <p class="soft">{t('Reading {file} …', {file: model.name})}</p>
   );
 
-const Refused = ({failure}: {failure: unknown}) => <p role="alert">It cannot be read. {reason(failure)}</p>;
+const Refused = ({failure}: {failure: unknown}) => <p role="alert">{t('It cannot be read. {why}', {why: reason(failure)})}</p>;
 
-function Asked({question: {key, text: said, choices, hint, check, lines}, value, answer}: {question: Question; value: string; answer(value: string): void}) {
+/** Where a table is pasted; it is read at once. */
+function Pasted({take}: {take(text: string): void}) {
+  const box = useRef<HTMLTextAreaElement>(null);
+  useLayoutEffect(() => box.current?.focus(), []);
+  return (
+    <label class="pasted">
+      <span>{t('Copy the rows of a spreadsheet and paste them here, with their headings or without')}</span>
+      {/* A row that is typed is complete with its end, or when the box is left. */}
+      <textarea
+        ref={box}
+        rows={4}
+        onInput={({currentTarget: {value}}) => value.trimStart().includes('\n') && take(value)}
+        onChange={({currentTarget: {value}}) => value.trim() && take(value)}
+      />
+    </label>
+  );
+}
+
+const mostColumns = 60; // that are shown
+
+/** The first rows of a table, with the meaning of each column above it. */
+function Columns({question: {table, text}, value, answer}: {question: Question; value: string; answer(value: string): void}) {
+  const [fields, setFields] = useState(value.split(','));
+  const {headings, rows, open} = table ?? {headings: [], rows: [], open: false};
+  const shown = fields.slice(0, mostColumns);
+  const mean = (at: number, field: string) => {
+    // A field has one column: it leaves the one that it had.
+    const next = fields.map((each, i) => (i === at ? field : each === field ? '' : each));
+    setFields(next);
+    answer(next.join());
+  };
+  return (
+    <details class="matched" open={open}>
+      <summary>{t('{columns}: {n} of {all} have a meaning', {columns: t(text), n: fields.filter(Boolean).length, all: fields.length})}</summary>
+      <div class="scroll" tabIndex={0} role="group" aria-label={t('The first rows')}>
+        <table>
+          <thead>
+            <tr>
+              {shown.map((field, at) => (
+                <th key={at} scope="col">
+                  {headings[at] ?? at + 1}
+                  <select
+                    data-column={at}
+                    aria-label={t('Meaning of column {column}', {column: headings[at] || at + 1})}
+                    value={field}
+                    onChange={(event) => mean(at, event.currentTarget.value)}
+                  >
+                    {columnChoices.map(([each, name]) => (
+                      <option key={each} value={each}>
+                        {t(name)}
+                      </option>
+                    ))}
+                  </select>
+                </th>
+              ))}
+            </tr>
+          </thead>
+          <tbody>
+            {rows.map((cells, i) => (
+              <tr key={i}>
+                {shown.map((_, at) => (
+                  <td key={at}>{cells[at]}</td>
+                ))}
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </div>
+    </details>
+  );
+}
+
+function Asked({question, value, answer}: {question: Question; value: string; answer(value: string): void}) {
+  const {key, text, of, choices, hint: given, check, lines, table} = question;
+  if (table) return <Columns question={question} value={value} answer={answer} />;
+  const [said, hint] = [t(text, {...of, ...(of?.['field'] ? {field: t(String(of['field']))} : {})}), given && t(given)];
   const shared = {'data-question': key, value, onChange: (event: Event) => answer((event.currentTarget as HTMLInputElement).value)};
   if (check)
     return (
@@ -193,7 +297,7 @@ function Asked({question: {key, text: said, choices, hint, check, lines}, value,
         <select {...shared}>
           {choices.map(([each, name]) => (
             <option key={each} value={each}>
-              {name}
+              {name === each ? name : t(name)}
             </option>
           ))}
         </select>
@@ -206,15 +310,29 @@ function Asked({question: {key, text: said, choices, hint, check, lines}, value,
   );
 }
 
-const counted = (n: number, one: string, many: string): string => `${n} ${n === 1 ? one : many}`;
-
 function framed({frame}: Imported): string {
-  const others = frame?.others?.length ?? 0;
-  const also = others ? ` and ${counted(others, 'other that cuts', 'others that cut')}` : '';
-  return frame ? `${counted(frame.members.length, 'member', 'members')}${also}.` : 'No member was found, so the job stays as it was.';
+  if (!frame) return t('No member was found, so the job stays as it was.');
+  const others = frame.others?.length ?? 0;
+  const members = many(frame.members.length, '{n} member', '{n} members');
+  return others ? t('{members} and {others}.', {members, others: many(others, '{n} other that cuts', '{n} others that cut')}) : t('{members}.', {members});
 }
 const parted = ({part}: ImportedPart): string =>
-  part ? `A part with ${counted(part.cutouts?.length ?? 0, 'cut-out', 'cut-outs')}.` : 'No part was found, so the job stays as it was.';
+  part
+    ? t('A part with {cutouts}.', {cutouts: many(part.cutouts?.length ?? 0, '{n} cut-out', '{n} cut-outs')})
+    : t('No part was found, so the job stays as it was.');
+
+type Missed = Imported['notUnderstood'][number];
+/** Things of one kind that are omitted for one reason. */
+function alike(missed: Missed[]): [Missed, ids: string[]][] {
+  const groups = new Map<string, [Missed, string[]]>();
+  for (const each of missed) {
+    const key = `${each.type}: ${each.reason}`;
+    const [first, ids] = groups.get(key) ?? [each, []];
+    groups.set(key, [first, [...ids, each.id]]);
+  }
+  return [...groups.values()];
+}
+const namedIds = 5; // of the things in one line
 
 /** How much of the file is in the request, and every thing that is not. */
 function Found(found: Imported | ImportedPart) {
@@ -223,13 +341,13 @@ function Found(found: Imported | ImportedPart) {
   const missed = notUnderstood.length;
   return (
     <>
-      <p id="imported-said">{`${what} ${missed ? `${counted(missed, 'thing was', 'things were')} not understood:` : 'Nothing was omitted.'}`}</p>
+      <p id="imported-said">{`${what} ${missed ? many(missed, '{n} thing was not understood:', '{n} things were not understood:') : t('Nothing was omitted.')}`}</p>
       {missed > 0 && (
-        <ul id="not-understood" tabIndex={0} aria-label="Unsupported items">
-          {notUnderstood.map(({id, type, reason: why}, i) => (
+        <ul id="not-understood" tabIndex={0} aria-label={t('Unsupported items')}>
+          {alike(notUnderstood).map(([{id, type, reason: why}, ids], i) => (
             <li key={i}>
-              <b>{id}</b>
-              {` ${type}: ${why}`}
+              {ids.length > 1 ? <b title={ids.join(', ')}>{`${ids.length} × ${type}`}</b> : <b>{id}</b>}
+              {ids.length > 1 ? `: ${why} (${ids.slice(0, namedIds).join(', ')}${ids.length > namedIds ? ' …' : ''})` : ` ${type}: ${why}`}
             </li>
           ))}
         </ul>

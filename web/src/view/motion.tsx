@@ -1,5 +1,6 @@
 import {useEffect, useState} from 'preact/hooks';
 import type {Row} from '../json';
+import {type Language, language, t} from '../language';
 import {acrossTube, sectionMotion, usualMotion} from '../onward';
 import type {Chart, Picture} from '../picture';
 import type {Context} from '../pictures/context';
@@ -21,6 +22,7 @@ interface Given {
 }
 interface Shown {
   of: string;
+  spoken: Language;
   reply: Reply;
   charts: Chart[];
   facts?: Pick<Picture, 'figures' | 'tables'>;
@@ -29,9 +31,10 @@ interface Shown {
 async function asked(of: string, context: Context): Promise<Shown> {
   const body = JSON.parse(of) as Row;
   const reply = await ask('pulse-schedules', body);
-  if (!reply.answer) return {of, reply, charts: []};
+  const spoken = language.value;
+  if (!reply.answer) return {of, spoken, reply, charts: []};
   const way = await wayOf(body, reply.answer, context);
-  return {of, reply, charts: scheduleCharts(reply.answer, machineOf(body['machine'], context), way), facts: motionFacts(reply.answer)};
+  return {of, spoken, reply, charts: scheduleCharts(reply.answer, machineOf(body['machine'], context), way), facts: motionFacts(reply.answer)};
 }
 
 let last: Shown | undefined; // kept for who comes back to it
@@ -45,7 +48,7 @@ export function Motion({cut, section, context, open, focus, failed}: Given) {
   const [shown, show] = useState(last);
   const [turn, again] = useState(0);
   useEffect(() => {
-    if (last?.of === key && last.reply.answer) return;
+    if (last?.of === key && last.spoken === language.value && last.reply.answer) return;
     let current = true;
     asked(key, context)
       .then((each) => {
@@ -57,13 +60,13 @@ export function Motion({cut, section, context, open, focus, failed}: Given) {
     return () => {
       current = false;
     };
-  }, [key, turn]);
+  }, [key, turn, language.value]);
   return (
     <>
       <p class="soft">
-        On the {choice(motion['machine'])} at 600 mm/min.{' '}
+        {t('On the {machine} at 600 mm/min.', {machine: choice(motion['machine'])})}{' '}
         <button type="button" id="open-pulses" onClick={() => open(body)}>
-          Change machine, speed, lead …
+          {t('Change machine, speed, lead …')}
         </button>
       </p>
       <div class="motion">

@@ -1,4 +1,5 @@
 import type {Row} from '../json';
+import {locale, t} from '../language';
 import {linesOf} from '../lines';
 import {endpointName, exampleName} from '../names';
 import {onWhite} from '../theme';
@@ -13,14 +14,14 @@ export function Paper() {
   const [endpoint, example] = [console.endpoint.value, console.example.value];
   const lines = linesOf(console.body as Row);
   return (
-    <section id="paper" aria-label="Request">
+    <section id="paper" aria-label={t('Request')}>
       <h1>
         tubecut: {endpointName(endpoint)}
-        {example && `, ${exampleName(endpoint, example)}`}
+        {example && t(', ') + exampleName(endpoint, example)}
       </h1>
       <p class="soft">
-        {new Date().toLocaleString([], {dateStyle: 'medium', timeStyle: 'short'})}
-        {console.answer.value && `, job ${console.answer.value.job.id}`}
+        {new Date().toLocaleString(locale(), {dateStyle: 'medium', timeStyle: 'short'})}
+        {console.answer.value && t(', job {id}', {id: console.answer.value.job.id})}
       </p>
       <dl>
         {lines.slice(0, most).map(([name, value], i) => (
@@ -30,7 +31,7 @@ export function Paper() {
           </div>
         ))}
       </dl>
-      {lines.length > most && <p class="soft">and {lines.length - most} more values, in the file of the job</p>}
+      {lines.length > most && <p class="soft">{t('and {n} more values, in the file of the job', {n: lines.length - most})}</p>}
     </section>
   );
 }

@@ -1,4 +1,5 @@
 import {useEffect, useRef, useState} from 'preact/hooks';
+import {t} from '../language';
 import {point} from '../links';
 import type {Played} from '../picture';
 import {withUnit} from '../words';
@@ -44,24 +45,24 @@ export function Player({given: {link, seconds, events, segments}}: {given: Playe
     running.current = requestAnimationFrame(next);
     tell(true);
   };
-  const said = (text: string, between: string) => (event ? text + between + event.text : text);
+  const time = withUnit(Number(now.toFixed(1)), 's');
   return (
     <>
       <button type="button" id="play" onClick={calm.matches ? step : playing ? stop : play}>
-        {calm.matches ? 'Next event' : playing ? 'Pause' : 'Play'}
+        {calm.matches ? t('Next event') : playing ? t('Pause') : t('Play')}
       </button>
       <input
         type="range"
         min={0}
         max={last}
         value={at}
-        aria-label="Time"
-        aria-valuetext={said(withUnit(Number(now.toFixed(1)), 's'), ', after ')}
-        title="The time in the schedule: the cursor and the tool follow."
+        aria-label={t('Time')}
+        aria-valuetext={event ? t('{time}, after {event}', {time, event: event.text}) : time}
+        title={t('The time in the schedule: the cursor and the tool follow.')}
         onInput={({currentTarget}) => point(link, Number(currentTarget.value))}
       />
       {segments && (
-        <div class="timeline" role="img" aria-label={`Time line: ${events.map((each) => each.text).join(', ')}`}>
+        <div class="timeline" role="img" aria-label={t('Time line: {events}', {events: events.map((each) => each.text).join(', ')})}>
           {segments.map(({from, to, tone, text}, i) => (
             <i
               key={i}
@@ -77,7 +78,7 @@ export function Player({given: {link, seconds, events, segments}}: {given: Playe
           ))}
         </div>
       )}
-      <output class="soft">{said(`${now.toFixed(1)} of ${whole.toFixed(1)} s`, ' · ')}</output>
+      <output class="soft">{[t('{now} of {whole} s', {now: now.toFixed(1), whole: whole.toFixed(1)}), ...(event ? [event.text] : [])].join(' · ')}</output>
     </>
   );
 }

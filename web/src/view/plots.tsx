@@ -1,8 +1,9 @@
 import {useEffect, useLayoutEffect, useMemo, useRef, useState} from 'preact/hooks';
 import {described, narrowed, Plot, walk} from '../charts';
+import {language, later, t} from '../language';
 import {point, pointed} from '../links';
 import type {Chart} from '../picture';
-import {axesOf, over, warned, type Axis} from '../pictures/axis';
+import {axesOf, chooseAxis, chosenAxis, over, usualAxis, warned, type Axis} from '../pictures/axis';
 import {inShownUnits} from '../pictures/units';
 import type {Warning} from '../service';
 import {dark} from '../theme';
@@ -23,14 +24,16 @@ type Attempt = (act: () => void) => void;
 type Span = [number, number];
 
 /** Charts of one kind are given new data instead of being made anew. */
-const kind = ({id, link, x, series}: Chart) => [id, link, x.unit, dark.value, ...series.map((s) => s.name + s.tone)].join();
+const kind = ({id, link, x, series}: Chart) => [id, link, x.unit, dark.value, language.value, ...series.map((s) => s.name + s.tone)].join();
 /** Charts with one axis are zoomed together. */
 const axisOf = ({link, x, wrap}: Chart) => [link, x.name, x.unit, wrap ? 'wrap' : ''].join();
-const axisNames: Record<Axis, string> = {mm: 'Developed length', '°': 'Angle φ'};
+const axisNames: Record<Axis, string> = {mm: later('Developed length'), '°': later('Angle φ'), s: later('Time')};
 
 /** A column of charts, which draw themselves. */
 export function Charts({charts: given, failed, warnings, job, ...more}: Given) {
-  const [axis, take] = useState<Axis>('mm');
+  const offered = useMemo(() => [...new Set(given.flatMap(axesOf))], [given]);
+  const chosen = chosenAxis.value;
+  const axis = chosen && offered.includes(chosen) ? chosen : usualAxis(given);
   const charts = useMemo(() => warned(given, warnings ?? []).map((chart) => inShownUnits(over(chart, axis))), [given, warnings, axis, system.value]);
   const [zooms, zoom] = useState<Record<string, Span | undefined>>({});
   useEffect(() => zoom({}), [job, axis, system.value]);
@@ -50,17 +53,16 @@ export function Charts({charts: given, failed, warnings, job, ...more}: Given) {
   /** The cursor stays where it is, though charts with another axis are made anew. */
   const turn = (to: Axis) => {
     const held = charts.map(({link}) => [link, pointed(link)] as const);
-    take(to);
+    chooseAxis(to);
     requestAnimationFrame(() => requestAnimationFrame(() => held.forEach(([link, at]) => point(link, at))));
   };
-  const offered = [...new Set(charts.flatMap(axesOf))];
   return (
     <div ref={root} {...more}>
       {offered.length > 1 && (
-        <span class="pair axes" role="group" aria-label="Axis of the charts">
+        <span class="pair axes" role="group" aria-label={t('Axis of the charts')}>
           {offered.map((each) => (
             <button type="button" key={each} data-axis={each} aria-pressed={each === axis} onClick={() => turn(each)}>
-              {axisNames[each]}
+              {t(axisNames[each])}
             </button>
           ))}
         </span>

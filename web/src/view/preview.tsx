@@ -1,4 +1,5 @@
 import {useLayoutEffect, useRef, useState} from 'preact/hooks';
+import {t} from '../language';
 import {point} from '../links';
 import {pointLine, programLink} from '../pictures/programmed';
 import {rapidSpeed, type Program} from '../program';
@@ -34,19 +35,23 @@ export function ProgramPreview({program}: {program: Program}) {
       <figcaption>
         {moves.length > 0 && (
           <>
-            <b id="program-time">{withUnit(time.cut + time.pierce, 's')}</b> for {withUnit(length, 'mm')} of cut and{' '}
-            {moves.filter(({kind}) => kind === 'pierce').length} pierces; rapids take about {withUnit(Math.round(time.rapid), 's')} at{' '}
-            {withUnit(rapidSpeed.mm_s, 'mm/s')}.{' '}
+            <b id="program-time">{withUnit(time.cut + time.pierce, 's')}</b>{' '}
+            {t('for {length} of cut and {pierces} pierces; rapids take about {rapids} at {speed}.', {
+              length: withUnit(length, 'mm'),
+              pierces: moves.filter(({kind}) => kind === 'pierce').length,
+              rapids: withUnit(Math.round(time.rapid), 's'),
+              speed: withUnit(rapidSpeed.mm_s, 'mm/s'),
+            })}{' '}
           </>
         )}
-        <span class="soft">{lines.length} lines</span>
+        <span class="soft">{t('{n} lines', {n: lines.length})}</span>
       </figcaption>
       <div
         ref={box}
         class="listing"
         tabIndex={0}
         role="group"
-        aria-label="Program. Up and down move the cursor, also in the picture."
+        aria-label={t('Program. Up and down move the cursor, also in the picture.')}
         style={{height: `${high}px`}}
         onScroll={(event) => scrolled(event.currentTarget.scrollTop)}
         onKeyDown={walk}

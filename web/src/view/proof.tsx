@@ -1,4 +1,5 @@
 import {isRow, type Json, type Row} from '../json';
+import {later, t} from '../language';
 import {holds, type Answer, type Check} from '../service';
 import {about, beside, check as checkName, choice, label, number, residual, sentence, shown, spelled, term} from '../words';
 import {Sheet, Table} from './tables';
@@ -13,10 +14,10 @@ const near = 0.5; // of one that may not
 function standing(check: Check, kind: 'checks' | 'limits'): {tone: string; text: string; share: number} {
   const whole = check.limit > 0 ? check.value / check.limit : check.value > 0 ? Infinity : 0;
   const share = Math.min(1, Math.max(0, whole));
-  if (!holds(check)) return {tone: 'failed', text: 'FAILED', share};
-  if (kind === 'limits' && whole >= active) return {tone: 'active', text: 'at its limit, which is permitted', share};
-  if (kind === 'checks' && whole >= near) return {tone: 'near', text: 'passes, near its limit', share};
-  return {tone: '', text: 'holds', share};
+  if (!holds(check)) return {tone: 'failed', text: t('FAILED'), share};
+  if (kind === 'limits' && whole >= active) return {tone: 'active', text: t('at its limit, which is permitted'), share};
+  if (kind === 'checks' && whole >= near) return {tone: 'near', text: t('passes, near its limit'), share};
+  return {tone: '', text: t('holds'), share};
 }
 
 function Measured({check}: {check: Check}) {
@@ -29,33 +30,34 @@ function Measured({check}: {check: Check}) {
       <td>{beside(residual(check.value, mark), mark)}</td>
       <td>{beside(residual(check.limit, mark), mark)}</td>
       <td>
-        <meter min={0} max={1} value={share} aria-label={`${name}: share of the limit`} /> {share > 0 && share < 0.01 ? '< 1' : number(100 * share, '%')} %
+        <meter min={0} max={1} value={share} aria-label={t('{name}: share of the limit', {name})} />{' '}
+        {share > 0 && share < 0.01 ? '< 1' : number(100 * share, '%')} %
       </td>
       <td>{text}</td>
     </tr>
   );
 }
 
-const proven = 'Residuals computed from the answer by other formulas than those that made it, and its limits.';
+const proven = later('Residuals computed from the answer by other formulas than those that made it, and its limits.');
 
 /** Measured against permitted values, as a fraction of the limit. */
 export function Proof({answer: {job, verification}}: {answer: Answer}) {
   const hash = (name: 'input_sha256' | 'result_sha256') => [{text: label(name), about: about(name)}, `${job[name].slice(0, 12)} …`];
   return (
     <div class="columns">
-      <Sheet title="Proof" head={['Check', 'Value', 'Limit', 'Of the limit', '']} note={proven} whole>
+      <Sheet title={t('Proof')} head={[t('Check'), t('Value'), t('Limit'), t('Of the limit'), '']} note={t(proven)} whole>
         {verification.checks.map((check) => (
           <Measured key={check.name} check={check} />
         ))}
       </Sheet>
-      <Table title="Job" head={['', '']} rows={[[term('engine'), job.engine], ['job', job.id], hash('input_sha256'), hash('result_sha256')]} />
+      <Table title={t('Job')} head={['', '']} rows={[[term('engine'), job.engine], [t('job'), job.id], hash('input_sha256'), hash('result_sha256')]} />
     </div>
   );
 }
 
 const most = 1000; // rows that are shown
 const textual = (key: string, value: Json | undefined) =>
-  typeof value === 'number' ? shown(key, value) : typeof value === 'boolean' ? (value ? 'yes' : 'no') : choice(value ?? '');
+  typeof value === 'number' ? shown(key, value) : typeof value === 'boolean' ? (value ? t('yes') : t('no')) : choice(value ?? '');
 
 /** Returns the parts of an answer with columns of points: title, columns, name. */
 function curvesOf(row: Row, name = ''): [string, Row, string][] {
@@ -73,7 +75,7 @@ function curvesOf(row: Row, name = ''): [string, Row, string][] {
 /** Every column of the answer's points. */
 export function Columns({answer}: {answer: Answer}) {
   const found = curvesOf(answer.result);
-  if (!found.length) return <p class="soft">No curves in this answer: its tables stand with the proof.</p>;
+  if (!found.length) return <p class="soft">{t('No curves in this answer: its tables are with the proof.')}</p>;
   return (
     <div>
       {found.slice(0, 6).map(([name, row, within]) => {
@@ -83,7 +85,11 @@ export function Columns({answer}: {answer: Answer}) {
         return (
           <Table
             key={name}
-            title={`${sentence(name)}, ${all} rows${count === most ? ` (the first ${most} here)` : ''}`}
+            title={
+              count === most
+                ? t('{name}, {all} rows (the first {most} here)', {name: sentence(name), all, most})
+                : t('{name}, {all} rows', {name: sentence(name), all})
+            }
             head={columns.map(([key]) => term(key, within))}
             rows={Array.from({length: count}, (_, i) => columns.map(([key, v]) => textual(key, v[i])))}
           />

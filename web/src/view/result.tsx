@@ -1,6 +1,7 @@
 import {useMemo} from 'preact/hooks';
 import type {Console} from '../console';
 import {purposesOf} from '../files';
+import {t} from '../language';
 import {endpointName} from '../names';
 import {without} from '../pictures/context';
 import {bevelsOf} from '../onward';
@@ -33,7 +34,7 @@ export function Result() {
       <Paper />
       <div id="verdict" role="status" aria-live="polite">
         {lost.value !== null ? (
-          <Lost why={lost.value} as={console.lostAs.value} />
+          <Lost why={lost.value()} as={console.lostAs.value} />
         ) : reply.value ? (
           <Verdict
             reply={reply.value}
@@ -44,14 +45,14 @@ export function Result() {
             check={() => void console.opinion.ask(reply.value as Reply)}
           />
         ) : (
-          <p class="waiting">Asking the service …</p>
+          <p class="waiting">{t('Waiting for the service …')}</p>
         )}
       </div>
       <p id="trouble" role="alert" hidden={!trouble.value}>
         {trouble.value}
       </p>
       <Opinion />
-      <nav id="onward" aria-label="Go on to" hidden={!answer.value}>
+      <nav id="onward" aria-label={t('Go on to')} hidden={!answer.value}>
         <Onward />
       </nav>
       <Pictures />
@@ -64,16 +65,16 @@ export function Result() {
 /** A link that leads to no job. */
 const Lost = ({why, as}: {why: string; as: string}) =>
   as === 'damaged' ? (
-    <Silence title="This link is damaged." detail={`${why} Request a new link, or choose an endpoint above.`} pill="no job" />
+    <Silence title={t('This link is damaged.')} detail={t('{why} Request a new link, or choose an endpoint above.', {why})} pill={t('no job')} />
   ) : (
-    <Silence title="This job is not here." detail={why} pill="no job" />
+    <Silence title={t('This job is not here.')} detail={why} pill={t('no job')} />
   );
 
 function Onward() {
   const console = useConsole();
   return (
     <>
-      <span class="soft">Go on to</span>
+      <span class="soft">{t('Go on to')}</span>
       {console.leads.value.map(({name, endpoint, body}) => (
         <button type="button" key={name} data-onward={endpoint} onClick={() => void console.follow(endpoint, body)}>
           {name}
@@ -81,12 +82,12 @@ function Onward() {
       ))}
       {console.answer.value?.result['b_sign'] !== 'inward' /* of which a program is refused */ &&
         purposesOf(console.contract.formats(path(console.endpoint.value))).includes('program') && (
-          <button type="button" data-onward="program" title="The program of a machine, with a preview" onClick={() => console.files('program')}>
-            Program
+          <button type="button" data-onward="program" title={t('The program of a machine, with a preview')} onClick={() => console.files('program')}>
+            {t('Program')}
           </button>
         )}
       <button type="button" data-onward="files" onClick={() => console.files()}>
-        Files
+        {t('Files')}
       </button>
     </>
   );
@@ -118,7 +119,7 @@ function Pictures() {
           change={(to) => console.change(to)}
           failed={console.failed}
         />
-        <div id="player" role="group" aria-label="Time" hidden={!played}>
+        <div id="player" role="group" aria-label={t('Time')} hidden={!played}>
           {played && <Player given={played} />}
         </div>
         <figure id="section" hidden={!section}>
@@ -128,7 +129,7 @@ function Pictures() {
           <Figures figures={figures} />
         </div>
       </div>
-      <section id="inspector" aria-label="Members, joints and parts" hidden={!inspected}>
+      <section id="inspector" aria-label={t('Members, joints and parts')} hidden={!inspected}>
         {inspected && <Inspector given={inspected} item={console.item.value} ways={ways} />}
       </section>
       <Charts id="charts" charts={charts} failed={console.failed} warnings={console.answer.value?.warnings} job={console.job.value} />
@@ -143,7 +144,7 @@ function Details() {
   const tab = offered.some(([id]) => id === console.tab.value) ? console.tab.value : 'proof';
   return (
     <>
-      <TabBar offered={offered} chosen={tab} choose={(id) => console.choose(id)} />
+      <TabBar offered={offered.map(([id, name]) => [id, t(name)])} chosen={tab} choose={(id) => console.choose(id)} />
       <div role="tabpanel" id="panel" aria-labelledby={`tab-${tab}`}>
         <Panel tab={tab} />
       </div>
@@ -157,7 +158,9 @@ function Panel({tab}: {tab: string}) {
   const [reply, answer, picture, endpoint] = [console.reply.value, console.answer.value, console.picture.value, console.endpoint.value];
   if (tab === 'json') return <Exchange endpoint={endpoint} body={body} reply={reply?.answer ?? reply?.problem} />;
   if (!answer)
-    return <p class="soft">{reply?.problem?.code === away.code ? 'Nothing yet: the service did not answer.' : 'Nothing yet: the request was refused.'}</p>;
+    return (
+      <p class="soft">{reply?.problem?.code === away.code ? t('Nothing yet: the service did not answer.') : t('Nothing yet: the request was refused.')}</p>
+    );
   if (tab === 'table') return <Columns answer={answer} />;
   if (tab === 'downloads')
     return (

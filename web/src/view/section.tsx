@@ -1,3 +1,4 @@
+import {t} from '../language';
 import type {Section} from '../picture';
 import {withUnit} from '../words';
 import {useCursor} from './controls';
@@ -15,7 +16,7 @@ export function SectionView({given: {link, low, high, at}}: {given: Section}) {
       <figcaption>
         <b>{title}</b>
         {note && <span>{note}</span>}
-        <span class="soft">the bar is {withUnit(bar, 'mm')}</span>
+        <span class="soft">{t('the bar is {length}', {length: withUnit(bar, 'mm')})}</span>
       </figcaption>
       <svg viewBox={`0 0 ${width} ${height}`} role="img" aria-label={title}>
         {lines.map(({points, tone, dashed}, i) => (

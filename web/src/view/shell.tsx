@@ -1,5 +1,8 @@
-import type {ComponentChildren} from 'preact';
+import type {ComponentChildren, ComponentType} from 'preact';
+import {useEffect, useState} from 'preact/hooks';
 import type {Console} from '../console';
+import {LanguageButton} from './language_button';
+import {t} from '../language';
 import {endpointName, exampleName} from '../names';
 import {pressed} from '../preset';
 import {byTask} from '../tasks';
@@ -18,28 +21,30 @@ import {ThemeButton} from './theme';
 export function Shell({console, children}: {console?: Console | undefined; children?: ComponentChildren}) {
   return (
     <Page.Provider value={console ?? null}>
-      <a class="skip" href={console?.home.value ? '#start' : '#views'}>
-        Skip to the result
+      <a class="skip" href={console?.home.value ? `#${console.place.value}` : '#views'}>
+        {t('Skip to the result')}
       </a>
       <header class="top">
-        <a class="brand" href="#/" title="Start">
+        <a class="brand" href="#/" title={t('Start')}>
           <img src="/mark.svg" width={26} height={26} alt="" /> <span>tubecut</span>
         </a>
-        <nav id="endpoints" aria-label="What to compute">
+        <nav id="endpoints" aria-label={t('What to compute')}>
           {console && <Pages />}
         </nav>
         <div class="tools">
           {console && <Links />}
           {console && <Units />}
           <ThemeButton />
-          <a href="/glossary">Words</a>
+          <LanguageButton console={console} />
+          <a href="/glossary">{t('Words')}</a>
           <a href="/docs">API</a>
         </div>
       </header>
       <main class={console?.home.value ? 'home' : ''}>
         {console && <Start />}
-        {console && <Ask />}
-        <section id="views" aria-label="Result" tabIndex={-1} hidden={console?.home.value}>
+        {console && (onOwn(console) ? <OwnMachine /> : <Ask />)}
+        <section id="views" aria-label={t('Result')} tabIndex={-1} hidden={console?.home.value}>
+          <h2 class="offscreen">{t('Result')}</h2>
           {console ? (
             <Result />
           ) : (
@@ -53,23 +58,38 @@ export function Shell({console, children}: {console?: Console | undefined; child
   );
 }
 
+const onOwn = ({home, place}: Console) => home.value && place.value === 'own-machine';
+
+/** The page comes when it is first opened. */
+function OwnMachine() {
+  const [View, show] = useState<ComponentType>();
+  useEffect(() => void import('./own_machine').then(({OwnMachinePage}) => show(() => OwnMachinePage)), []);
+  return View ? <View /> : <p class="waiting">{t('Waiting for the service …')}</p>;
+}
+
 function Pages() {
-  const {pages, contract, endpoint, home} = useConsole();
+  const console = useConsole();
+  const {pages, contract, endpoint, home} = console;
   return (
     <>
       {byTask(pages, ({id}) => id).map(({task, items}) => (
-        <span key={task?.id} class="group-of" role="group" data-title={task?.name ?? 'More'} aria-label={task?.name ?? 'More'}>
+        <span key={task?.id} class="group-of" role="group" data-title={t(task?.name ?? 'More')} aria-label={t(task?.name ?? 'More')}>
           {items.map(({id, path}) => (
             <a
               key={id}
               href={`#/${id}`}
               data-endpoint={id}
-              title={contract.summary(path)}
+              title={t(contract.summary(path))}
               aria-current={!home.value && id === endpoint.value ? 'page' : undefined}
             >
               {endpointName(id)}
             </a>
           ))}
+          {task?.id === 'machine' && (
+            <a href="#/own-machine" title={t('Own machine and post')} aria-current={onOwn(console) ? 'page' : undefined}>
+              {t('Set up')}
+            </a>
+          )}
         </span>
       ))}
     </>
@@ -83,14 +103,14 @@ function Links() {
       <button
         id="share"
         type="button"
-        title="Copy a link to exactly this job"
+        title={t('Copy a link to exactly this job')}
         disabled={console.lost.value !== null || console.home.value}
         onClick={() => void console.share(copied)}
       >
-        {console.linked.value}
+        {t(console.linked.value)}
       </button>
-      <button id="forget" type="button" title="Load the page anew, without the key" hidden={!console.keyed.value} onClick={() => void console.forget()}>
-        Forget key
+      <button id="forget" type="button" title={t('Load the page anew, without the key')} hidden={!console.keyed.value} onClick={() => void console.forget()}>
+        {t('Forget key')}
       </button>
     </>
   );
@@ -106,14 +126,17 @@ function Ask() {
     job: console.job.value,
     body,
     shown: ['frames', 'parts'].includes(console.endpoint.value),
+    frames: console.endpoint.value === 'frames',
     take: (page, request) => console.begin(page, undefined, request, true),
   });
   return (
-    <section id="ask" aria-label="Request" class={shown ? 'open' : ''} hidden={console.home.value}>
+    <section id="ask" aria-label={t('Request')} class={shown ? 'open' : ''} hidden={console.home.value}>
+      <h1 class="offscreen">{endpointName(console.endpoint.value)}</h1>
+      <h2 class="offscreen">{t('Request')}</h2>
       <div class="entry">
         <div class="pick">
           <label class="offscreen" for="example">
-            Example
+            {t('Example')}
           </label>
           <Examples />
         </div>
@@ -130,8 +153,8 @@ function Examples() {
   const console = useConsole();
   const [endpoint, example] = [console.endpoint.value, console.example.value];
   return (
-    <select id="example" title="Examples" value={example ?? ''} onChange={(event) => console.open(endpoint, event.currentTarget.value)}>
-      {example === undefined && <option value="">A job of your own</option>}
+    <select id="example" title={t('Examples')} value={example ?? ''} onChange={(event) => console.open(endpoint, event.currentTarget.value)}>
+      {example === undefined && <option value="">{t('A job of your own')}</option>}
       {console.own.map(({name}) => (
         <option key={name} value={name}>
           {exampleName(endpoint, name)}
@@ -153,10 +176,10 @@ function Units() {
     <button
       type="button"
       id="units"
-      title={`Show lengths in ${inch ? 'mm' : 'inches'}; either is understood in every field: 2-3/8in, 1.75", 24.15*2`}
+      title={t('Show lengths in {unit}; either is understood in every field: 2-3/8in, 1.75", 24.15*2', {unit: inch ? 'mm' : t('inches')})}
       onClick={turn}
     >
-      {inch ? 'inch' : 'mm'}
+      {inch ? t('inch') : 'mm'}
     </button>
   );
 }
@@ -166,10 +189,10 @@ function Undo() {
   const {undoable, redoable} = form.history;
   return (
     <span class="pair">
-      <button type="button" id="undo" aria-label="Undo" title="Undo (Ctrl+Z)" disabled={!undoable.value} onClick={() => form.go(-1)}>
+      <button type="button" id="undo" aria-label={t('Undo')} title={t('Undo (Ctrl+Z)')} disabled={!undoable.value} onClick={() => form.go(-1)}>
         ↶
       </button>
-      <button type="button" id="redo" aria-label="Redo" title="Redo (Ctrl+Y)" disabled={!redoable.value} onClick={() => form.go(1)}>
+      <button type="button" id="redo" aria-label={t('Redo')} title={t('Redo (Ctrl+Y)')} disabled={!redoable.value} onClick={() => form.go(1)}>
         ↷
       </button>
     </span>
@@ -186,27 +209,27 @@ function Choices({children}: {children: ComponentChildren}) {
       <button
         id="blank"
         type="button"
-        title="New job, from the fewest fields"
+        title={t('New job, from the fewest fields')}
         hidden={endpoint === 'replays' /* of which another page's answer is a part */}
         onClick={() => console.blank()}
       >
-        New
+        {t('New')}
       </button>
       {children}
       <button
         id="preset"
         type="button"
         aria-pressed={pressed(console.body)}
-        title="Cut square to the wall, and show the remaining gap"
+        title={t('Cut square to the wall, and show the remaining gap')}
         hidden={!console.presetOffered}
         onClick={() => console.press()}
       >
-        Tube laser
+        {t('Tube laser')}
       </button>
       <Jobs />
       <Undo />
       <button id="reset" type="button" hidden={example === undefined} disabled={!console.edited.value} onClick={() => console.open(endpoint, example)}>
-        Reset
+        {t('Reset')}
       </button>
       <button
         id="edit"
@@ -218,7 +241,7 @@ function Choices({children}: {children: ComponentChildren}) {
         }}
       >
         {/* On a phone the picture comes first, and the form on demand. */}
-        {shown ? 'Back to the picture' : 'Change the job'}
+        {shown ? t('Back to the picture') : t('Change the job')}
       </button>
     </div>
   );

@@ -1,7 +1,9 @@
 import {useLayoutEffect, useRef, useState} from 'preact/hooks';
+import {language, later, t} from '../language';
 import {listen} from '../links';
 import {onPaper} from '../paper';
 import type {Picture, Vector} from '../picture';
+import type {Slice} from '../scene/slice';
 import type {Stage} from '../scene/stage';
 import {dark} from '../theme';
 import {shownUnit, toShown} from '../units';
@@ -19,9 +21,9 @@ interface Given {
 }
 
 const sides = [
-  ['front', 'Front'],
-  ['right', 'Right'],
-  ['top', 'Top'],
+  ['front', later('Front'), later('Look from the front')],
+  ['right', later('Right'), later('Look from the right')],
+  ['top', later('Top'), later('Look from the top')],
 ] as const;
 type Between = [Vector, Vector];
 
@@ -47,47 +49,54 @@ export function Solid(given: Given) {
     found(undefined);
     void stage.current?.then((made) => made?.measured(measure ? (points) => found(points && [points[0].toArray(), points[1].toArray()]) : null));
   }, [measure]);
+  const [slice, setSlice] = useState<Slice | null>(null);
+  const [place, setPlace] = useState<number | undefined>(undefined);
+  useLayoutEffect(() => void stage.current?.then((made) => setPlace(made?.sliced(slice))), [slice, picture]);
   return (
     <div id="solid" hidden={!solid}>
       <div ref={canvas} class="canvas">
-        {none && <p class="waiting">No 3D here: {none}</p>}
+        {none && <p class="waiting">{t('No 3D here: {why}', {why: none})}</p>}
       </div>
       <div class="switches" id="switches">
         {picture?.beforeAfter && (
-          <span class="pair" role="group" aria-label="Bevel before or after smoothing">
+          <span class="pair" role="group" aria-label={t('Bevel before or after smoothing')}>
             <Toggle id="view-before" pressed={view === 'before'} act={() => change({view: 'before'})}>
-              Before
+              {t('Before')}
             </Toggle>
             <Toggle id="view-after" pressed={view === 'after'} act={() => change({view: 'after'})}>
-              After
+              {t('After')}
             </Toggle>
           </span>
         )}
         {solid && solid.partners.length > 0 && (
           <Toggle id="view-partners" pressed={partners} act={() => change({partners: !partners})}>
-            Partners
+            {t('Partners')}
           </Toggle>
         )}
-        <button type="button" title="Back to the first view" onClick={() => stage.current?.then((made) => made?.reset())}>
-          Reset view
+        <button type="button" title={t('Back to the first view')} onClick={() => stage.current?.then((made) => made?.reset())}>
+          {t('Reset view')}
         </button>
-        <button type="button" id="print" title="The request, the pictures and the tables on paper, in light colours" onClick={() => void onPaper()}>
-          Print
+        <button type="button" id="print" title={t('The request, the pictures and the tables on paper, in light colours')} onClick={() => void onPaper()}>
+          {t('Print')}
         </button>
       </div>
-      <div class="views" role="group" aria-label="Views">
-        {sides.map(([side, name]) => (
-          <button type="button" key={side} data-side={side} title={`Look from the ${side}`} onClick={() => stage.current?.then((made) => made?.look(side))}>
-            {name}
+      <div class="views" role="group" aria-label={t('Views')}>
+        {sides.map(([side, name, about]) => (
+          <button type="button" key={side} data-side={side} title={t(about)} onClick={() => stage.current?.then((made) => made?.look(side))}>
+            {t(name)}
           </button>
         ))}
         <Toggle id="view-parallel" pressed={parallel} act={() => flatten(!parallel)}>
-          Parallel
+          {t('Parallel')}
         </Toggle>
         <Toggle id="view-measure" pressed={measure} act={() => setMeasure(!measure)}>
-          Measure
+          {t('Measure')}
         </Toggle>
-        {measure && <output id="measured">{between ? distanceText(between) : 'Click two points of the model.'}</output>}
+        <Toggle id="view-section" pressed={slice !== null} act={() => setSlice(slice ? null : {axis: 'x', share: 0.5, other: false})}>
+          {t('Section')}
+        </Toggle>
+        {slice && <Slicing slice={slice} place={place} change={setSlice} />}
+        {measure && <output id="measured">{between ? distanceText(between) : t('Click two points of the model.')}</output>}
       </div>
       <div class="scale" id="scale" hidden={low === undefined && !solid?.legend}>
         {solid?.legend ? (
@@ -106,6 +115,35 @@ export function Solid(given: Given) {
       </div>
       {solid && picture && <Readout picture={picture} />}
     </div>
+  );
+}
+
+/** The place of the section: its axis, its position, the half that is kept. */
+function Slicing({slice, place, change}: {slice: Slice; place: number | undefined; change(to: Slice): void}) {
+  const {axis, share, other} = slice;
+  const said = place === undefined ? '' : withUnit(place, 'mm');
+  return (
+    <span class="slicing">
+      <select aria-label={t('Axis of the section')} value={axis} onChange={({currentTarget}) => change({...slice, axis: currentTarget.value as Slice['axis']})}>
+        {(['x', 'y', 'z'] as const).map((each) => (
+          <option key={each}>{each}</option>
+        ))}
+      </select>
+      <input
+        type="range"
+        min={0}
+        max={1}
+        step={0.005}
+        value={share}
+        aria-label={t('Place of the section')}
+        aria-valuetext={said}
+        onInput={({currentTarget}) => change({...slice, share: Number(currentTarget.value)})}
+      />
+      <output id="sliced">{said}</output>
+      <Toggle id="view-other" pressed={other} act={() => change({...slice, other: !other})}>
+        {t('Other half')}
+      </Toggle>
+    </span>
   );
 }
 
@@ -134,11 +172,11 @@ function useStage(canvas: {current: HTMLElement | null}, {picture, title, job, v
     stage.current
       .then((made) => {
         if (!made || latest.current !== picture) return;
-        made.show(solid, view === 'before' && picture.beforeAfter === true, `${title} in 3D`, job);
+        made.show(solid, view === 'before' && picture.beforeAfter === true, t('{title} in 3D', {title}), job);
         made.partnersShown(partners);
       })
       .catch(failed);
-  }, [picture, view, partners, dark.value]);
+  }, [picture, view, partners, dark.value, language.value]);
   return [stage, none] as const;
 }
 
@@ -157,7 +195,7 @@ function Readout({picture}: {picture: Picture}) {
     <dl
       id="readout"
       class={idle ? 'idle' : ''}
-      title={idle && rows.length ? 'Point at a chart or at the cut, or use the arrow keys: the cursor moves in every view.' : undefined}
+      title={idle && rows.length ? t('Point at a chart or at the cut, or use the arrow keys: the cursor moves in every view.') : undefined}
     >
       {rows.map(([name, value], i) => (
         <div key={i} title={hint(name)}>

@@ -2,10 +2,10 @@ import {useEffect, useMemo, useState} from 'preact/hooks';
 import type {Console} from '../console';
 import {forget, recent, type Draft} from '../drafts';
 import type {Row} from '../json';
+import {locale, many, t} from '../language';
 import {endpointName, exampleName} from '../names';
 import {sketched, sketchSize} from '../sketch';
 import {byTask, tasks, type Task} from '../tasks';
-import {withUnit} from '../words';
 import {useConsole} from './page';
 
 const shownJobs = 6;
@@ -14,8 +14,10 @@ const shownJobs = 6;
 export function Start() {
   const console = useConsole();
   return (
-    <section id="start" aria-label="Start" tabIndex={-1} hidden={!console.home.value}>
-      <h1>tubecut computes how tubes are cut to fit each other, from one joint to a whole frame, and checks every answer before it leaves the service.</h1>
+    <section id="start" aria-label={t('Start')} tabIndex={-1} hidden={!console.home.value || console.place.value !== 'start'}>
+      <h1>
+        {t('tubecut computes how tubes are cut to fit each other, from one joint to a whole frame, and checks every answer before it leaves the service.')}
+      </h1>
       <Recent />
       <div class="tasks">
         {tasks.map((task) => (
@@ -33,17 +35,18 @@ function TaskCard({task}: {task: Task}) {
   const pictured = task.examples.flatMap((key) => offered.find(({endpoint, name}) => `${endpoint}/${name}` === key) ?? []);
   return (
     <section class="block task" data-task={task.id} aria-labelledby={`task-${task.id}`}>
-      <h2 id={`task-${task.id}`}>{task.name}</h2>
-      <p>{task.about}</p>
+      <h2 id={`task-${task.id}`}>{t(task.name)}</h2>
+      <p>{t(task.about)}</p>
       <p class="ways">
         <button type="button" data-new={first} onClick={() => console.fresh(first)}>
-          New: {endpointName(first)}
+          {t('New: {endpoint}', {endpoint: endpointName(first)})}
         </button>
         {task.endpoints.slice(1).map((id) => (
           <a key={id} href={`#/${id}`}>
             {endpointName(id)}
           </a>
         ))}
+        {task.id === 'machine' && <a href="#/own-machine">{t('Own machine and post')}</a>}
       </p>
       <ul class="examples">
         {pictured.map(({endpoint, name, body}) => (
@@ -56,7 +59,7 @@ function TaskCard({task}: {task: Task}) {
         ))}
       </ul>
       <details>
-        <summary>All {offered.length} examples</summary>
+        <summary>{t('All {n} examples', {n: offered.length})}</summary>
         <ul class="names">
           {offered.map(({endpoint, name}) => (
             <li key={`${endpoint}/${name}`}>
@@ -99,7 +102,7 @@ export function subjectOf(body: Row): string {
   const named = [of('reference')['order'], of('reference')['part'], body['member'], of('target')['id'], of('branch')['id']];
   const found = named.filter((each): each is string => typeof each === 'string').slice(0, 2);
   if (found.length) return found.join(', ');
-  if (members) return withUnit(members, members === 1 ? 'member' : 'members');
+  if (members) return many(members, '{n} member', '{n} members');
   return inner ? subjectOf(of(inner)) : '';
 }
 
@@ -118,7 +121,7 @@ function Recent() {
   };
   return (
     <section class="block" id="recent" aria-labelledby="recent-jobs">
-      <h2 id="recent-jobs">Recent jobs</h2>
+      <h2 id="recent-jobs">{t('Recent jobs')}</h2>
       <ul>
         {jobs.map(({id, endpoint, body, changed}) => (
           <li key={id}>
@@ -130,13 +133,13 @@ function Recent() {
               </span>
             </a>
             <time class="soft" dateTime={new Date(changed).toISOString()}>
-              {new Date(changed).toLocaleString([], {dateStyle: 'medium', timeStyle: 'short'})}
+              {new Date(changed).toLocaleString(locale(), {dateStyle: 'medium', timeStyle: 'short'})}
             </time>
             <button
               type="button"
               class="remove"
-              aria-label={`Forget ${endpointName(endpoint)} ${subjectOf(body)}`}
-              title="Forget this job"
+              aria-label={t('Forget {job}', {job: `${endpointName(endpoint)} ${subjectOf(body)}`})}
+              title={t('Forget this job')}
               onClick={() => drop(id)}
             >
               ×

@@ -37,11 +37,15 @@ export const Sheet = ({title, head, children, id, note, whole}: SheetOf) => (
         {head.some((each) => each !== '') && (
           <thead>
             <tr>
-              {head.map(capital).map((each, i) => (
-                <th key={i} scope="col" {...shape(each)}>
-                  {text(each)}
-                </th>
-              ))}
+              {head.map(capital).map((each, i) =>
+                each === '' ? (
+                  <td key={i} />
+                ) : (
+                  <th key={i} scope="col" {...shape(each)}>
+                    {text(each)}
+                  </th>
+                ),
+              )}
             </tr>
           </thead>
         )}

@@ -1,15 +1,16 @@
 import {useState} from 'preact/hooks';
 import {give, keyed} from '../key';
+import {later, t} from '../language';
 
 /** Requests the key in place of an answer, then continues. */
 export function Unlock({go}: {go(): void}) {
-  const [title, say] = useState(keyed() ? 'Invalid API key.' : 'This service requires an API key.');
+  const [title, say] = useState(keyed() ? later('Invalid API key.') : later('This service requires an API key.'));
   const [text, type] = useState('');
   const [going, went] = useState(false);
   const enter = (event: Event) => {
     event.preventDefault();
     const given = text.trim();
-    if (!/^[!-~]+$/.test(given)) return say(given ? 'A key cannot contain such characters.' : 'Enter a key.');
+    if (!/^[!-~]+$/.test(given)) return say(given ? later('A key cannot contain such characters.') : later('Enter a key.'));
     give(given);
     went(true);
     go();
@@ -17,10 +18,10 @@ export function Unlock({go}: {go(): void}) {
   return (
     <form class={`verdict ${keyed() ? 'bad' : 'warn'} unlock`} noValidate onSubmit={enter}>
       <p>
-        <span class="pill">key</span>
-        <b role="status">{title}</b>
+        <span class="pill">{t('key')}</span>
+        <b role="status">{t(title)}</b>
         <label>
-          Key
+          {t('Key')}
           <input
             type="password"
             autocomplete="off"
@@ -34,12 +35,13 @@ export function Unlock({go}: {go(): void}) {
           />
         </label>
         <button type="submit" disabled={going}>
-          Use this key
+          {t('Use this key')}
         </button>
       </p>
       <p class="soft">
-        Whoever runs the service gives keys out. This page holds yours in its memory alone: another page asks again, and so does this one when it is loaded
-        anew.
+        {t(
+          'Whoever runs the service gives keys out. This page holds yours only in its memory: another page requests it again, and so does this one when it is loaded anew.',
+        )}
       </p>
     </form>
   );
