@@ -112,10 +112,9 @@ std::string_view endpoint_of(std::span<const std::uint8_t> bytes) {
   return bytes.empty() || bytes.size() > kLongest ? std::string_view{} : id_at(bytes[0]);
 }
 
-void dispatch_bytes(std::span<const std::uint8_t> bytes, std::stop_token stop) {
+void dispatch_bytes(std::span<const std::uint8_t> bytes) {
   if (bytes.empty() || bytes.size() > kLongest) return;
-  const api::Context context{
-      .stop = std::move(stop), .clock = {}, .status = [](ErrorKind) { return 400; }};
+  const api::Context context{.clock = {}, .status = [](ErrorKind) { return 400; }};
   const std::string body(bytes.begin() + 1, bytes.end());
   if (id_at(bytes[0]) == api::kBatchesId) return ask_line(body, context);
   if (const auto* endpoint = endpoint_of_id(id_at(bytes[0])))

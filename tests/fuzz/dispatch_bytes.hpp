@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <stop_token>
 #include <string_view>
 
 namespace tubecut::fuzz {
@@ -15,7 +14,7 @@ inline constexpr std::size_t kLongest = 8192;
 /// '_' CBOR, '`' to 'o' validate_only, others a text format), the rest is the body. Aborts when a
 /// promise is broken: no exception, no failure of ours, an answer or a problem that reads back as
 /// JSON.
-void dispatch_bytes(std::span<const std::uint8_t> bytes, std::stop_token stop = {});
+void dispatch_bytes(std::span<const std::uint8_t> bytes);
 
 /// Returns the id of the endpoint of an input; empty if it names no endpoint.
 [[nodiscard]] std::string_view endpoint_of(std::span<const std::uint8_t> bytes);

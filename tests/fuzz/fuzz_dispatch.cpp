@@ -4,6 +4,7 @@
 #include <stop_token>
 #include <thread>
 
+#include "core/base/stop.hpp"
 #include "tests/fuzz/dispatch_bytes.hpp"
 
 namespace {
@@ -22,6 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::condition_variable_any().wait_for(lock, answered, kBudget, [] { return false; });
     over.request_stop();
   });
-  tubecut::fuzz::dispatch_bytes({data, size}, over.get_token());
+  const tubecut::StopScope scope(over.get_token());
+  tubecut::fuzz::dispatch_bytes({data, size});
   return 0;
 }

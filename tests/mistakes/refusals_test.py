@@ -15,7 +15,7 @@ TABLE, SCHEDULE = "bevel-tables/source-000-table-1", "pulse-schedules/square-cut
 CYCLE, NODE = "feed-curves/cut-off-194-mm-whole-cycle", "nodes/k-joint-from-centre-lines"
 INCHES = {"outer_diameter_mm": 8.625, "wall_mm": 0.322}  # NPS 8 SCH 40
 # The parameters that are names, and the names in a refusal; a material is one of a machine's.
-NAMES = {"post": ["linuxcnc", "qtplasmac", "fanuc_style", "siemens_style"], "machine": ["five_axis_cutter"], "material": ["no option of format json"]}
+NAMES = {"post": ["linuxcnc", "qtplasmac", "fanuc_style", "siemens_style"], "machine": ["five_axis_cutter", "tube_table"], "material": ["no option of format json"]}
 
 
 def example(name):
