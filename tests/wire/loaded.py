@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A machine that others keep busy: `loaded.py BINARY`. The service has one CPU beside three threads that take a fourth of it each.
-Ordinary schedules with twice the CPU they need are answered, although they take longer than that by the wall's clock; one with
+Ordinary schedules with three times the CPU they need are answered, although they take longer than that by the wall's clock; one with
 half of what it needs is 504 all the same."""
 
 import contextlib
@@ -50,7 +50,7 @@ def main():
         os.sched_setaffinity(0, everywhere)
         ask(service, 60000)  # the first finds cold caches and costs up to twice as much
         needs = statistics.median(cpu_ms(ask(service, 60000)[0]) for _ in range(5))
-        budget = round(2 * needs)
+        budget = round(3 * needs)
         with busy(cpu, threads=3):
             tries = [ask(service, budget) for _ in range(TRIES)]
             short, _ = ask(service, max(1, round(needs / 2)))

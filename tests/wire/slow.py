@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Slow and idle clients: `slow.py BINARY LOAD SECONDS HALVES IDLE [--must-fail]`. HALVES sockets send a head byte by byte, as many a body,
-IDLE kept-alive ones do nothing; each that is closed comes back. Meanwhile the probe's p99 is at most 50 ms and good
-traffic loses nothing. With --must-fail, BINARY being the stock library, one of these has to break."""
+IDLE kept-alive ones do nothing; up to 200 send half a head to the admin port. Each that is closed comes back. Meanwhile the probe's p99
+is at most 50 ms and good traffic loses nothing. With --must-fail, BINARY being the stock library, one of these has to break."""
 
 import json
 import subprocess
@@ -14,6 +14,7 @@ from service import Service, connect, exchange, get, head, post, receive
 P99_MS = 50.0
 PATIENCE_S = 1.0
 COME_BACK = 16  # connections in one turn
+AT_ADMIN = 200  # half-sent heads that the admin port must bear
 
 
 def probe(port):
@@ -69,6 +70,8 @@ def main():
         crowd = [Slow(service.port, b"GET /v1/version HTTP/1.1\r\nHost: x\r\nX: ", b"a") for _ in range(halves)]
         crowd += [Slow(service.port, head("Content-Length: 100000"), b" ") for _ in range(halves)]
         crowd += [Slow(service.port, get("/v1/version"), b"") for _ in range(idle)]
+        at_admin = 0 if service.stock else min(halves, AT_ADMIN)
+        crowd += [Slow(service.admin_port, b"GET /livez HTTP/1.1\r\nHost: x\r\nX: ", b"a") for _ in range(at_admin)]
         traffic = subprocess.Popen([load, str(seconds), "4", str(service.port), good.name, "--rate", "200"],
                                    stdout=subprocess.PIPE, text=True)
         until = time.monotonic() + seconds
@@ -92,7 +95,7 @@ def main():
     p99 = probes[int(0.99 * (len(probes) - 1))]
     good_ones = told["statuses"].get("200", 0)
     others = sum(told["statuses"].values()) - good_ones
-    print(f"{2 * halves} slow and {idle} idle sockets for {seconds:g} s, {ended} ended by the server: {len(probes)} probes, "
+    print(f"{2 * halves} slow and {idle} idle sockets, {at_admin} at the admin port, for {seconds:g} s, {ended} ended by the server: {len(probes)} probes, "
           f"p50 {probes[len(probes) // 2]:.1f} ms, p99 {p99:.1f} ms (limit {P99_MS:g}); good traffic {good_ones} answered, "
           f"{others} otherwise of {told['statuses']}, {told['lost']} lost, p99 {told['accepted_ms']['p99']:.1f} ms; resident {resident:.1f} MiB; "
           f"refused {refused}")
