@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/rounding.hpp"
 #include "core/cutout/flats.hpp"
 #include "core/math/rotation.hpp"
 
@@ -30,7 +31,7 @@ Issue too_high(const TextSpec& spec, const RoundReach& reach, double room, std::
   return {.code = ErrorCode::out_of_range,
           .member = "height",
           .got = spec.height,
-          .limit = spec.height * room / reach.length(),
+          .limit = rounded_down(spec.height * room / reach.length()),
           .unit = "mm",
           .hint = "the text is " + brief(reach.length()) + " mm long round the tube, and " +
                   std::move(where) + " " + brief(room) + " mm"};
@@ -43,8 +44,13 @@ std::vector<Issue> beyond_its_flat(const TextSpec& spec, const Lettering& one,
   const double beyond = std::max(one.offset + reach.to - half, -half - one.offset - reach.from);
   if (beyond <= kWithinFlat) return {};
   const auto face = "the flat of face " + std::to_string(one.face);
-  if (reach.length() > 2.0 * half) return {too_high(spec, reach, 2.0 * half, face + " is only")};
-  const double wanted = one.offset + reach.to > half ? half - reach.to : -half - reach.from;
+  if (reach.length() > 2.0 * half + kWithinFlat)
+    return {too_high(spec, reach, 2.0 * half, face + " is only")};
+  const double low = -half - reach.from, high = half - reach.to;
+  const bool above = one.offset > high;
+  // A text that fills its flat fits at one offset, which rounding must not leave.
+  const double rounded = above ? rounded_down(high) : rounded_up(low);
+  const double wanted = rounded < low || rounded > high ? (above ? high : low) : rounded;
   const bool by_face = spec.at.face != 0;
   return {{.code = ErrorCode::out_of_range,
            .member = by_face ? "at/offset" : "at/girth",

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/rounding.hpp"
 #include "core/base/try.hpp"
 #include "core/groove/normal_area.hpp"
 #include "core/groove/section.hpp"
@@ -98,6 +99,7 @@ void check_wall(const Pipe& pipe, const char* member, std::vector<Issue>& issues
 }
 
 constexpr double kLeastWeldWidth = 0.01;  // minimum width in mm of wall next to the root face
+constexpr double kAboveNothing = 1e-6;    // mm; a filler of exactly no area is refused
 
 /// Returns the issues of pairs of fields.
 std::vector<Issue> shape_issues(const GrooveSpec& spec) {
@@ -109,7 +111,7 @@ std::vector<Issue> shape_issues(const GrooveSpec& spec) {
     issues.push_back({.code = ErrorCode::root_width,
                       .member = "root_face/width",
                       .got = spec.root_face.width,
-                      .limit = spec.branch.wall,
+                      .limit = rounded_down(spec.branch.wall - kLeastWeldWidth - kAboveNothing),
                       .unit = "mm"});
     return issues;
   }
@@ -155,7 +157,8 @@ Result<double> area_of_height(const Joint& joint, const FillerHeight& reference)
   return fail({.code = ErrorCode::area,
                .member = "filler/height",
                .got = reference.height,
-               .limit = (2.0 * found->bow + joint.groove_width * found->dy) / found->D,
+               .limit = rounded_up((2.0 * found->bow + joint.groove_width * found->dy) / found->D +
+                                   kAboveNothing),
                .unit = "mm",
                .hint = "no filler is left at " + degrees_text(reference.at)});
 }

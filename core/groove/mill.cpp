@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/elementary.hpp"
+#include "core/base/rounding.hpp"
 #include "core/base/try.hpp"
 
 namespace tubecut::groove {
@@ -62,7 +63,7 @@ std::vector<Issue> fit_issues(const Joint& joint, const Survey& survey, const Mi
     issues.push_back({.code = ErrorCode::tool_short,
                       .member = "mill/length",
                       .got = mill.length,
-                      .limit = longest * cone.cos_k,
+                      .limit = rounded_up(longest * cone.cos_k),
                       .unit = "mm",
                       .hint = "the generatrix must reach from curve 3 to curve 4 everywhere"});
   // If the generatrix's normal m points inward (beta + kappa > 90 deg), the tip's face leans over
@@ -75,7 +76,7 @@ std::vector<Issue> fit_issues(const Joint& joint, const Survey& survey, const Mi
     issues.push_back({.code = ErrorCode::root_collision,
                       .member = "mill/half_angle",
                       .got = kappa,
-                      .limit = kappa - (lean - 90.0),
+                      .limit = rounded_down(kappa - (lean - 90.0)),
                       .unit = "deg"});
   return issues;
 }

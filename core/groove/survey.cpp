@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/elementary.hpp"
+#include "core/base/rounding.hpp"
 #include "core/base/stop.hpp"
 #include "core/groove/section.hpp"
 #include "core/groove/surface.hpp"
@@ -104,7 +105,7 @@ class Surveyor {
     Issue out{.code = bad_->code, .member = "filler", .got = joint_.area, .unit = "mm2"};
     out.hint = "at omega " + degrees_text(bad_->section.omega) + " the groove height is " +
                brief(bad_->section.height) + " mm";
-    if (bad_->code == ErrorCode::p3_below_p1) out.limit = sums_.least_area;
+    if (bad_->code == ErrorCode::p3_below_p1) out.limit = rounded_up(sums_.least_area);
     return out;
   }
 

@@ -206,6 +206,19 @@ TEST(Texts, TooNearToAnEdgeIsRefusedAndItsLimitIsAccepted) {
 }
 
 TEST(Texts, OnAFlatKeepToItUnlessTheyMayLeaveIt) {
+  for (const auto& [member, value] :
+       {std::pair{"at/offset_mm", -25.0}, {"at/offset_mm", 40.0}, {"height_mm", 90.0}}) {
+    const auto asked = with(with(flat_mark(), "at/offset_mm", 0.0), member, value);
+    const auto refused = post(kParts, square_part(list({asked})));
+    ASSERT_TRUE(refused.outcome.error) << member;
+    const double limit = number(refused.body, "errors/0/limit");
+    EXPECT_EQ(limit, std::round(limit * 1e3) / 1e3);
+    const auto followed = post(kParts, square_part(list({with(asked, member, limit)})));
+    if (followed.outcome.error) {
+      EXPECT_NE(text(followed.body, "errors/0/pointer"), "/texts/0/" + std::string(member))
+          << limit;
+    }
+  }
   const auto beyond = with(flat_mark(), "at/offset_mm", -25.0);
   EXPECT_EQ(refusals(square_part(list({beyond}))), Refusals{"out_of_range /texts/0/at/offset_mm"});
   made(square_part(list({with(beyond, "over_corner", Json{true})})));
