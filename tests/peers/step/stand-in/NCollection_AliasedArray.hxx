@@ -24,4 +24,8 @@ class NCollection_AliasedArray {
   void Value(int, T&) const;
   template <class T>
   T& ChangeValue(int);
+
+ protected:
+  unsigned char* myData = nullptr;
+  int myStride = 0;
 };
