@@ -27,7 +27,7 @@ export function checkFrame(scope: Scope, answer: Body, know: Knowledge): void {
   for (const member of members) checkPlace(scope, request, member, made, pieces);
   for (const joint of list(result.joints)) {
     checkJoint(scope, request, joint, members, made, pieces, know);
-    checkStated(scope, joint, members, made);
+    checkStated(scope, request, joint, members, made);
   }
   scope.covers('joints/*/gap_mm', 'joints/*/depth_mm').not('joints/*/fit_up', 'only that end and hole keep the gap where they stand, within alike_within_mm');
 }
@@ -58,7 +58,7 @@ function checkCutList(scope: Scope, request: Body, result: Body, made: Map<strin
     mass += n * (row.mass_kg as number);
     for (const name of ['long_mm', 'blank_mm', 'weld_mm', 'mass_kg']) scope.same('cut_list', row[name] as number, lengths[name], 1e-10, '', `${where} ${name}`);
     const girth = section ? girthOf(section) : Math.PI * (row.outer_diameter_mm as number);
-    scope.same('cut_list', row.girth_mm as number, girth, 1e-10 * (1 + (row.girth_mm as number)), 'mm', where);
+    scope.same('cut_list', row.girth_mm as number, girth, 1e-12 * (1 + (row.girth_mm as number)), 'mm', where);
   }
   for (const [name, own] of [
     ['members', all],
@@ -67,7 +67,7 @@ function checkCutList(scope: Scope, request: Body, result: Body, made: Map<strin
     ['blank_mm', blank],
     ['mass_kg', mass],
   ] as const) {
-    scope.same('totals', totals[name], own, 1e-11 * own, '', name);
+    scope.same('totals', totals[name], own, 1e-13 * own, '', name);
     scope.covers(`totals/${name}`);
   }
   scope.covers(
@@ -107,7 +107,10 @@ function checkPlace(scope: Scope, request: Body, member: Body, made: Map<string,
 }
 
 /** Weld and groove of a joint are those of the end that is set on, or of the hole that is cut for the branch. */
-function checkStated(scope: Scope, joint: Body, members: Body[], made: Map<string, Body>): void {
+function checkStated(scope: Scope, request: Body, joint: Body, members: Body[], made: Map<string, Body>): void {
+  const says = list(request.joints).find(({between}) => [joint.branch, joint.chord].every((id) => (between as unknown[]).includes(id)));
+  if (says)
+    for (const name of ['gap_mm', 'depth_mm']) if (says[name] !== undefined) scope.equal('joint', joint[name], says[name], `${joint.branch} on ${joint.chord}`);
   const inside = joint.kind === 'set_in' || joint.kind === 'through';
   const place = members.find(({id}) => id === joint[inside ? 'chord' : 'branch']);
   const part = place && (made.get(String(place.part))?.result as Body | undefined);

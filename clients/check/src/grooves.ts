@@ -46,6 +46,7 @@ function weldEnd(j: Joint, omega: number): [number, number] {
   const y = chordAt(j, j.rho, omega);
   const far = (s: number) => Math.hypot(s - j.rho, chordAt(j, s, omega) - y) - j.width;
   let to = j.rho + j.width;
+  if (far(to) < 0) return [to, chordAt(j, to, omega)]; // on a level chord, by rounding
   if (!(far(to) >= 0)) to = j.rho + j.width * (1 - 1e-9);
   // The distance may pass the width before the outermost place: the first sign change counts.
   const steps = 400;

@@ -73,7 +73,7 @@ function checkResult(scope: Scope, endpoint: string, answer: Body, know: Knowled
   switch (endpoint) {
     case 'intersections': {
       const cut = request.node ? cutOfNode(request, ids, know) : cutOf(request, know);
-      for (const profile of result.profiles as Body[]) checkProfile(scope.under('profiles/*'), cut, profile);
+      for (const profile of result.profiles as Body[]) checkProfile(scope.under('profiles/*'), cut, profile, request.sampling);
       return;
     }
     case 'bevel-tables':

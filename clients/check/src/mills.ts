@@ -342,7 +342,7 @@ function checkSwept(scope: Scope, path: Path, stated: Numbers, chosen: number[])
   const own = {flank_min_mm: least, flank_max_mm: most, stock_left_max_mm: stock, root_face_min_mm: deepest};
   for (const [name, value] of Object.entries(own)) {
     const sampled = name.startsWith('root'); // the deepest place lies between the samples
-    scope.same(sampled ? 'mill_root_face' : 'mill_swept', stated[name], value, sampled ? 0.03 : 3e-6, 'mm', name);
+    scope.same(sampled ? 'mill_root_face' : 'mill_swept', stated[name], value, sampled ? 0.04 : 3e-6, 'mm', name);
     scope.covers(name);
   }
 }

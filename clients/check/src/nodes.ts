@@ -140,7 +140,8 @@ export function checkNodes(scope: Scope, request: Body, result: Body, know: Know
       const other = byId(members, by.member);
       const joint = by.joint as unknown as Statement;
       const says = stated(target, other);
-      if (says) for (const name of ['kind', 'gap_mm'] as const) ends.equal('joint', joint[name], says[name] ?? 0, where);
+      if (says) ends.equal('joint', joint.kind, says.kind, where);
+      ends.equal('joint', joint.gap_mm, says?.gap_mm ?? 0, where);
       const axis = axisOfMember(other);
       ends.same('gap', by.gap_mm as number, toAxis(own[0], other), 1e-12 * (1 + norm(own[0]) + (by.gap_mm as number)), 'mm', where);
       ends.covers('cut_by/*/gap_mm', 'cut_by/*/joint/gap_mm');
@@ -154,7 +155,7 @@ export function checkNodes(scope: Scope, request: Body, result: Body, know: Know
     }
     const {outer_diameter_mm, wall_mm} = sizeOf(target, know.sizes);
     for (const profile of made.profiles as Body[]) {
-      checkProfile(ends.under('profiles/*'), cutBy(options, outer_diameter_mm / 2, wall_mm, partners), profile);
+      checkProfile(ends.under('profiles/*'), cutBy(options, outer_diameter_mm / 2, wall_mm, partners), profile, request.sampling);
     }
     const kept = keptOff(options);
     if (made.table) {

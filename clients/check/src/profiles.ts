@@ -5,7 +5,7 @@ import type {Body} from './solids.js';
 import {onTube, RAD} from './space.js';
 import {checkEvents, checkLength, type Event, jumpsOf} from './wall.js';
 
-export function checkProfile(scope: Scope, whole: Cut, profile: Body): void {
+export function checkProfile(scope: Scope, whole: Cut, profile: Body, sampling: unknown): void {
   const surface = profile.surface as 'inner' | 'outer';
   const cut: Cut = {...whole, root: surface};
   const rho = surface === 'inner' ? cut.inner : cut.outer;
@@ -14,8 +14,14 @@ export function checkProfile(scope: Scope, whole: Cut, profile: Body): void {
   const [phi, z, cutter] = [points.phi_deg, points.z_mm, points.cutter];
   const events = profile.events as unknown as Event[];
   const jumps = jumpsOf(events, surface);
+  const {uniform_points, tolerance_mm} = (sampling ?? {}) as {uniform_points?: number; tolerance_mm?: number};
+  const known = events.map(({phi_deg}) => phi_deg % 360);
   phi.forEach((deg, i) => {
     const at = deg * RAD;
+    if (uniform_points && tolerance_mm === undefined && !known.some((event) => Math.abs(event - deg) < 1e-9)) {
+      const step = (deg * uniform_points) / 360;
+      scope.most('uniform', (Math.abs(step - Math.round(step)) * 360) / uniform_points, 1e-10, 'deg', `row ${i}`);
+    }
     const [height, by] = [z[i], cutter[i]];
     const top = cut.partners[by]?.top(rho * Math.cos(at), rho * Math.sin(at)) ?? NaN;
     const fine = 1e-10 + 3e-13 * (rho + Math.abs(height));

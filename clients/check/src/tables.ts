@@ -58,7 +58,7 @@ export function checkEnd(scope: Scope, cut: Cut, result: Body, know: Knowledge):
     scope.not('points', 'made for comparison with a source, never for cutting');
     return;
   }
-  checkRows(scope, cut, columns, points.zone as string[] | undefined, jumpsOf(events, cut.root));
+  checkRows(scope, cut, columns, points.zone as string[] | undefined, [jumpsOf(events, cut.root), [...jumpsOf(events, 'inner'), ...jumpsOf(events, 'outer')]]);
   if (!needed.every((name) => columns[name])) return;
   for (const surface of ['inner', 'outer'] as const) if (cut.partners.length) checkEvents(scope, cut, events, surface, true);
   checkLength(scope, cut, columns.phi_deg as number[], columns.length_mm, events, result as unknown as {length_mm: number; developed_length_mm: number});

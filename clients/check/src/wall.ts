@@ -189,7 +189,7 @@ export function checkTorchLine(scope: Scope, cut: Cut, rows: Row[], stated: Torc
   const [gouge, left] = [climbed(deepest, -1), climbed(thickest, 1)];
   scope.most('gouge_bound', gouge, 0.0125, 'mm');
   scope.same('gouge_stated', stated.gouge_mm, gouge, 4e-3, 'mm');
-  scope.same('left_stated', stated.left_mm, left, 6e-3 + 0.06 * left, 'mm');
+  scope.same('left_stated', stated.left_mm, left, 6e-3 + 0.08 * left, 'mm');
   scope.covers('torch_line/gouge_mm', 'torch_line/left_mm');
 }
 
@@ -291,7 +291,7 @@ export function checkLength(
     const stated = i + 1 < phi.length ? length[i + 1] - length[i] : whole.length_mm - length[i] + length[0];
     // Beside a jump the curve is as steep as its generator.
     const steep = jumps.some((jump) => Math.cos(jump - ((at + next) / 2) * RAD) > Math.cos(((next - at) / 2 + 1) * RAD));
-    scope.same('length', stated, own, (steep ? 2e-6 : 1e-7) + (steep ? 1e-6 : 1e-8) * own, 'mm', `row ${i}`);
+    scope.same('length', stated, own, (steep ? 1e-5 : 1e-7) + (steep ? 1e-6 : 1e-8) * own, 'mm', `row ${i}`);
   });
   scope.same('length_of_all', whole.length_mm, total, 1e-6 + 1e-9 * total + 3e-5 * jumps.length, 'mm');
   scope.covers('length_mm', 'developed_length_mm');
