@@ -264,7 +264,13 @@ export function curveLength(cut: Cut, rho: number, from: number, to: number, eve
     const [a, b] = [corners[i], corners[i + 1]];
     if (b - a < 1e-14) continue;
     const folded = (t: number) => speed(a + (b - a) * Math.sin((Math.PI * t) / 2) ** 2) * (b - a) * (Math.PI / 2) * Math.sin(Math.PI * t);
-    sum += integral(folded, 0, 1, 1e-10 * (b - a) * rho + 1e-13, 12);
+    const found = integral(folded, 0, 1, 1e-10 * (b - a) * rho + 1e-13, 12);
+    // Next to a jump the slope has few digits left; a rising curve is no longer than its two sides, and nearly as short as its chord where it is that steep.
+    const jumpAt = (phi: number) =>
+      events.find((event) => event.kind === 'jump' && event.surface === surface && Math.abs(Math.sin((event.phi_deg * RAD - phi) / 2)) < 1e-12);
+    const arc = rho * (b - a);
+    const rise = Math.abs((jumpAt(b)?.z_from_mm ?? envelope(cut, rho, b).z) - (jumpAt(a)?.z_to_mm ?? envelope(cut, rho, a).z));
+    sum += rise > 100 * arc && found > rise + arc ? Math.hypot(rise, arc) : found;
   }
   return sum;
 }
