@@ -97,7 +97,11 @@ std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std
                 .joint = joined.joint_of(end.member, cut.member),
                 .at = "members/" + std::to_string(cut.member),
                 .missing = cut.missing};
-    if (m.section) one.partner = joint::box_of(m);
+    if (m.section) {
+      auto box = joint::box_of(m);
+      box.corner = cut.box->corner;  // sharp where two ends share it
+      one.partner = box;
+    }
     if (cut.plane)
       one.partner =
           joint::PlaneCutter{end.frame.origin + end.frame.rows.transpose() * cut.plane->point,

@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 #include "core/frame/frame.hpp"
+#include "core/joint/node/shared_corner.hpp"
 
 namespace tubecut::frame {
 namespace {
@@ -145,9 +146,11 @@ class Proof {
     const Vector3d across = axis_of(other).unit.cross(*other.up).normalized();
     worst_.axis.see(reach * std::abs(across.dot(at.axes * box.up.normalized())), box.point.norm());
     if (!other.section) return;
+    const double corner = box.corner == joint::detail::kSharpCorner
+                              ? 0.0  // shared with another end
+                              : std::abs(box.corner - other.section->corner);
     worst_.axis.see(worst_of({std::abs(box.height - other.section->height),
-                              std::abs(box.width - other.section->width),
-                              std::abs(box.corner - other.section->corner)}),
+                              std::abs(box.width - other.section->width), corner}),
                     0.0);
   }
 

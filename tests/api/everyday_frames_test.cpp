@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -236,6 +237,74 @@ TEST(EverydayFrames, AStoolHasOneLegAndOneRail) {
   ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
   EXPECT_EQ(at(answer.body, "parts").as<Json::Array>()->size(), 2u);
   EXPECT_EQ(at(answer.body, "result/joints").as<Json::Array>()->size(), 8u);
+}
+
+/// A table of legs and rails of one width, 800 x 500 mm, its rails at a height.
+struct Table {
+  std::string size;
+  double width = 0.0;
+  double height = 0.0;
+  double turned = 0.0;  // deg, in plan
+  bool rails_first = false;
+  bool backwards = false;  // each second rail
+};
+
+std::string members_of(const Table& table) {
+  const auto at = [&](int corner, double z) {
+    const double x = corner == 1 || corner == 2 ? 800.0 : 0.0, y = corner >= 2 ? 500.0 : 0.0;
+    const double c = std::cos(table.turned * kRadPerDeg), s = std::sin(table.turned * kRadPerDeg);
+    const auto rounded = [](double v) { return std::to_string(std::round(v * 1e3) / 1e3); };
+    return "[" + rounded(c * x - s * y) + ", " + rounded(s * x + c * y) + ", " + rounded(z) + "]";
+  };
+  const auto up = "[" + std::to_string(std::cos(table.turned * kRadPerDeg)) + ", " +
+                  std::to_string(std::sin(table.turned * kRadPerDeg)) + ", 0]";
+  std::string legs, rails;
+  for (int i = 0; i < 4; ++i) {
+    const auto name = std::to_string(i);
+    legs += (i > 0 ? "," : "") + square("leg" + name, at(i, 0), at(i, 700), table.size, up, 1);
+    const bool back = table.backwards && i % 2 == 1;
+    const int from = back ? (i + 1) % 4 : i, to = back ? i : (i + 1) % 4;
+    rails += (i > 0 ? "," : "") + square("rail" + name, at(from, table.height),
+                                         at(to, table.height), table.size, "[0, 0, 1]", 1);
+  }
+  return table.rails_first ? rails + "," + legs : legs + "," + rails;
+}
+
+/// Rails as wide as the legs at whose corners they meet would run into each other in the rounding.
+/// They end flat on the faces: two lengths, square at both ends, whatever the order and the place.
+TEST(EverydayFrames, RailsAsWideAsTheirLegsEndFlatOnTheFaces) {
+  for (const auto& table :
+       {Table{"SHS 40x40x3 EN 10219", 40, 680}, Table{"SHS 40x40x3 EN 10219", 40, 660},
+        Table{"SHS 40x40x3 EN 10219", 40, 300, 0, true},
+        Table{"SHS 40x40x3 EN 10219", 40, 679.5, 0, false, true},
+        Table{"SHS 40x40x3 EN 10219", 40, 300, 31.7},
+        Table{"SHS 100x100x5 EN 10210", 100, 400, 12.3, true, true},
+        Table{"SHS 50x50x5 EN 10219", 50, 675, 90}}) {
+    const auto asked = with(frame(members_of(table), ""), "connect", parsed(R"({"within_mm": 1})"));
+    const auto answer = post(kFrames, asked);
+    ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+    EXPECT_EQ(text(answer.body, "verdict/status"), "ok") << table.height << " " << table.turned;
+    std::multiset<double> lengths;
+    for (const auto& row : *at(answer.body, "result/cut_list").as<Json::Array>()) {
+      if (text(row, "part").starts_with("leg")) continue;
+      lengths.insert(std::round(number(row, "long_mm") * 100.0) / 100.0);
+      EXPECT_EQ(number(row, "count"), 2.0) << table.height << " " << table.turned;
+      for (const auto* side : {"start", "finish"}) {
+        const auto& end =
+            at(part(answer, text(row, "part")), "answer/result/ends/" + std::string(side));
+        const auto& z = *at(end, "points/z_outer_mm").as<Json::Array>();
+        const auto [least, most] =
+            std::ranges::minmax(z, {}, [](const Json& one) { return *one.as<double>(); });
+        // Where the leg's outline ends, the cut drops by its sharp edge's radius.
+        EXPECT_LT(*most.as<double>() - *least.as<double>(), 0.02) << table.height;
+      }
+    }
+    EXPECT_EQ(lengths, (std::multiset<double>{500 - table.width, 800 - table.width}));
+    bool told = false;
+    for (const auto& warning : *at(answer.body, "warnings").as<Json::Array>())
+      told = told || text(warning, "code") == "corner_shared";
+    EXPECT_TRUE(told);
+  }
 }
 
 /// A chord runs past the post that ends on it, by any length: that is no end that misses it.

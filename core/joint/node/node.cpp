@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "core/joint/node/in_line.hpp"
 #include "core/joint/node/node_parts.hpp"
 #include "core/joint/node/shape.hpp"
+#include "core/joint/node/shared_corner.hpp"
 
 namespace tubecut::joint {
 namespace {
@@ -38,6 +40,7 @@ bool alike(const Member& a, const Member& b) {
 struct Cutting {
   Touch touch;
   const detail::Mitre* mitre = nullptr;
+  bool flat = false;  // by its faces, because another end shares its corner
 };
 
 /// Returns the error if two members that pass this end are equal in rank and equally near, so that
@@ -46,7 +49,7 @@ Result<void> check_ambiguous(const NodeSpec& spec, const std::vector<Cutting>& a
                              double within) {
   const Touch* nearest = nullptr;
   const Touch* second = nullptr;
-  for (const auto& [touch, mitre] : above) {
+  for (const auto& [touch, mitre, flat] : above) {
     const auto& other = spec.members[touch.other];
     const bool passing = touch.near.inside > within + other.reach();
     if (!passing || !alike(other, spec.members[above.front().touch.other])) continue;
@@ -94,7 +97,8 @@ Result<MemberFrame> frame_of(const NodeSpec& spec, std::size_t member, End end,
 struct Around {
   const Applied& applied;
   const Lines& lines;
-  const std::vector<Touch>& joined;
+  const Joined& all;
+  const std::vector<Touch>& joined;  // of this end
   const std::optional<Touch>& missed;
 };
 
@@ -104,6 +108,45 @@ std::string parallel_to(const NodeSpec& spec, std::size_t member, std::size_t ot
   const auto name = called(spec, other);
   if (off < 2.0 * kParallel) return name + " is parallel";
   return name + " is within " + brief(off * kDegPerRad) + " deg of parallel";
+}
+
+/// Returns true if the joint of two members is set on, stated or not.
+bool is_set_on(const Applied& applied, std::size_t member, std::size_t other) {
+  const auto known = applied.joints.find(std::minmax(member, other));
+  return known == applied.joints.end() || known->second.kind == JointKind::set_on;
+}
+
+/// Returns true if an end of `other`, cut by the same chord, shares its corner with this end.
+bool shares_corner(const NodeSpec& spec, std::size_t index, std::size_t other, std::size_t chord,
+                   const Around& around) {
+  const auto member = index / 2;
+  const auto& applied = around.applied;
+  const auto pair = std::minmax(member, other);
+  if (applied.joints.contains(pair) && !applied.found.contains(pair)) return false;
+  if (!is_set_on(applied, member, chord) || !is_set_on(applied, other, chord) ||
+      applied.mitres.contains({index, other}) || !around.lines.goes_before(spec, chord, other))
+    return false;
+  return std::ranges::any_of(std::array{2 * other, 2 * other + 1}, [&](std::size_t end) {
+    return std::ranges::count(around.all[end], chord, &Touch::other) > 0 &&
+           detail::share_corner({spec.members[member], end_of(index)},
+                                {spec.members[other], end_of(end)}, spec.members[chord]);
+  });
+}
+
+/// Two ends that share a chord's corner end flat on its faces, and neither cuts the other.
+void part_at_corners(const NodeSpec& spec, std::size_t index, const Around& around,
+                     std::vector<Cutting>& cutters) {
+  std::vector<std::size_t> parted;
+  for (auto& cutting : cutters)
+    for (const auto& touch : around.joined)
+      if (cutting.mitre == nullptr && touch.other != cutting.touch.other &&
+          shares_corner(spec, index, touch.other, cutting.touch.other, around)) {
+        cutting.flat = true;
+        parted.push_back(touch.other);
+      }
+  std::erase_if(cutters, [&](const Cutting& c) {
+    return c.mitre == nullptr && std::ranges::count(parted, c.touch.other) > 0;
+  });
 }
 
 /// Returns the cutters of one end, the chord first. Parallel members get a warning and do not cut;
@@ -135,6 +178,7 @@ std::vector<Cutting> cutters_of(const NodeSpec& spec, std::size_t index, const A
   std::ranges::sort(out, [&](const Cutting& a, const Cutting& b) {
     return lines.listed_before(spec, a.touch.other, b.touch.other);
   });
+  part_at_corners(spec, index, around, out);
   return out;
 }
 
@@ -164,7 +208,7 @@ Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& ap
                                          const std::vector<Cutting>& cutters) {
   std::vector<CutBy> out;
   for (const auto& one : cutters) {
-    const auto& [touch, mitre] = one;
+    const auto& [touch, mitre, flat] = one;
     const auto& other = spec.members[touch.other];
     CutBy cut{.member = touch.other,
               .placement = {},
@@ -177,6 +221,7 @@ Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& ap
     } else {
       TRY(cut.placement, under(place_of(touch.other), place(frame.local(axis), other.reach())));
       if (other.section) cut.box = box_of(other, frame);
+      if (flat) cut.box->corner = detail::kSharpCorner;
       // The frame was defined in this way.
       if (!spec.members[member].up && &one == chord) cut.placement.tube.clocking = Angle{};
       cut.eccentricity = std::abs(cut.placement.tube.offset);
@@ -232,6 +277,14 @@ void warn(const NodeSpec& spec, const MemberEnd& end, const Around& around,
   for (const auto& cut : end.cut_by)
     if (cut.ghost)
       out.push_back({.code = WarningCode::ghost_contact, .member = at, .detail = ghost(spec, cut)});
+  for (const auto& cut : end.cut_by)
+    if (const auto& chord = spec.members[cut.member];
+        cut.box && cut.box->corner != chord.section->corner)
+      out.push_back({.code = WarningCode::corner_shared,
+                     .member = at,
+                     .detail = "flat on the face of " + called(spec, cut.member) +
+                               ", whose corner of radius " + brief(chord.section->corner) +
+                               " mm it shares with another end"});
   for (const auto& cut : end.cut_by)
     if (const double step = mitre_step(spec, end, cut); step > least(cut))
       out.push_back({.code = WarningCode::mitre_steps,
@@ -330,7 +383,7 @@ Result<Nodes> solve(const NodeSpec& spec) {
   out.ends.reserve(joined.size());
   for (std::size_t i = 0; i < joined.size(); ++i) {
     if (stopped()) return fail({.code = ErrorCode::cancelled});
-    const Around around{applied, lines, joined[i], near[i]};
+    const Around around{applied, lines, joined, joined[i], near[i]};
     TRY(auto end, solve_end(spec, i, around, out.warnings));
     out.ends.push_back(std::move(end));
   }

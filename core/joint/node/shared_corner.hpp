@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/joint/node/member.hpp"
+
+namespace tubecut::joint::detail {
+
+/// The corner radius of a chord whose faces count as meeting in an edge, mm.
+inline constexpr double kSharpCorner = 0.01;
+
+/// One end of a member.
+struct EndOf {
+  const Member& member;
+  End end;
+};
+
+/// Returns true if two ends stand on neighbouring faces of a chord that is not round, and both
+/// reach into the rounding between these faces but not past the edge where the faces would meet:
+/// two rails as wide as the post at whose corner they meet. If both followed the rounding, they
+/// would run into each other there, so they end flat on the faces.
+[[nodiscard]] bool share_corner(const EndOf& a, const EndOf& b, const Member& chord);
+
+}  // namespace tubecut::joint::detail
