@@ -110,29 +110,6 @@ std::string parallel_to(const NodeSpec& spec, std::size_t member, std::size_t ot
   return name + " is within " + brief(off * kDegPerRad) + " deg of parallel";
 }
 
-/// Returns true if the joint of two members is set on, stated or not.
-bool is_set_on(const Applied& applied, std::size_t member, std::size_t other) {
-  const auto known = applied.joints.find(std::minmax(member, other));
-  return known == applied.joints.end() || known->second.kind == JointKind::set_on;
-}
-
-/// Returns true if an end of `other`, cut by the same chord, shares its corner with this end.
-bool shares_corner(const NodeSpec& spec, std::size_t index, std::size_t other, std::size_t chord,
-                   const Around& around) {
-  const auto member = index / 2;
-  const auto& applied = around.applied;
-  const auto pair = std::minmax(member, other);
-  if (applied.joints.contains(pair) && !applied.found.contains(pair)) return false;
-  if (!is_set_on(applied, member, chord) || !is_set_on(applied, other, chord) ||
-      applied.mitres.contains({index, other}) || !around.lines.goes_before(spec, chord, other))
-    return false;
-  return std::ranges::any_of(std::array{2 * other, 2 * other + 1}, [&](std::size_t end) {
-    return std::ranges::count(around.all[end], chord, &Touch::other) > 0 &&
-           detail::share_corner({spec.members[member], end_of(index)},
-                                {spec.members[other], end_of(end)}, spec.members[chord]);
-  });
-}
-
 /// Two ends that share a chord's corner end flat on its faces, and neither cuts the other.
 void part_at_corners(const NodeSpec& spec, std::size_t index, const Around& around,
                      std::vector<Cutting>& cutters) {
@@ -140,7 +117,8 @@ void part_at_corners(const NodeSpec& spec, std::size_t index, const Around& arou
   for (auto& cutting : cutters)
     for (const auto& touch : around.joined)
       if (cutting.mitre == nullptr && touch.other != cutting.touch.other &&
-          shares_corner(spec, index, touch.other, cutting.touch.other, around)) {
+          detail::shares_corner({spec, around.applied, around.lines, around.all}, index,
+                                touch.other, cutting.touch.other)) {
         cutting.flat = true;
         parted.push_back(touch.other);
       }
@@ -250,12 +228,20 @@ double mitre_step(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut) 
          cut.eccentricity;
 }
 
-std::string ghost(const NodeSpec& spec, const CutBy& cut) {
+std::string ghost(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut,
+                  const Joined& joined) {
+  const auto other = called(spec, cut.member);
   const auto far = brief(cut.missing) + " mm";
-  const auto by = "cut by " + called(spec, cut.member);
-  if (!cut.instead) return by + " up to " + far + " beyond that member's end";
-  return by + " beyond that member's end, where " + called(spec, *cut.instead) +
-         ", which continues it, lies up to " + far + " lower";
+  if (cut.instead)
+    return "cut by " + other + " beyond that member's end, where " + called(spec, *cut.instead) +
+           ", which continues it, lies up to " + far + " lower";
+  const auto beyond = "cut by " + other + " up to " + far + " beyond that member's end";
+  const auto ends_here = [&](std::size_t at) {
+    return std::ranges::count(joined[at], end.member, &Touch::other) > 0;
+  };
+  if (!ends_here(2 * cut.member) && !ends_here(2 * cut.member + 1)) return beyond;
+  return beyond + "; both end here, so state a mitre of the two, or lengthen " + other + " by " +
+         far;
 }
 
 void warn(const NodeSpec& spec, const MemberEnd& end, const Around& around,
@@ -276,7 +262,9 @@ void warn(const NodeSpec& spec, const MemberEnd& end, const Around& around,
   }
   for (const auto& cut : end.cut_by)
     if (cut.ghost)
-      out.push_back({.code = WarningCode::ghost_contact, .member = at, .detail = ghost(spec, cut)});
+      out.push_back({.code = WarningCode::ghost_contact,
+                     .member = at,
+                     .detail = ghost(spec, end, cut, around.all)});
   for (const auto& cut : end.cut_by)
     if (const auto& chord = spec.members[cut.member];
         cut.box && cut.box->corner != chord.section->corner)

@@ -1,6 +1,7 @@
 #include "core/joint/node/shared_corner.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -44,6 +45,12 @@ bool reaches_rounding(const EndOf& one, const Face& face, const Member& chord) {
   return reach > face.half - chord.section->corner && reach <= face.half + kPastEdge;
 }
 
+/// Returns true if the joint of two members is set on, stated or not.
+bool is_set_on(const Applied& applied, std::size_t member, std::size_t other) {
+  const auto known = applied.joints.find(std::minmax(member, other));
+  return known == applied.joints.end() || known->second.kind == JointKind::set_on;
+}
+
 }  // namespace
 
 bool share_corner(const EndOf& a, const EndOf& b, const Member& chord) {
@@ -51,6 +58,21 @@ bool share_corner(const EndOf& a, const EndOf& b, const Member& chord) {
   const auto first = face_of(chord, into(a)), second = face_of(chord, into(b));
   if (!first || !second || std::abs(first->normal.dot(second->normal)) > 0.5) return false;
   return reaches_rounding(a, *second, chord) && reaches_rounding(b, *first, chord);
+}
+
+bool shares_corner(const Joints& joints, std::size_t index, std::size_t other, std::size_t chord) {
+  const auto& [spec, applied, lines, joined] = joints;
+  const auto member = index / 2;
+  const auto pair = std::minmax(member, other);
+  if (applied.joints.contains(pair) && !applied.found.contains(pair)) return false;
+  if (!is_set_on(applied, member, chord) || !is_set_on(applied, other, chord) ||
+      applied.mitres.contains({index, other}) || !lines.goes_before(spec, chord, other))
+    return false;
+  return std::ranges::any_of(std::array{2 * other, 2 * other + 1}, [&](std::size_t end) {
+    return std::ranges::count(joined[end], chord, &Touch::other) > 0 &&
+           share_corner({spec.members[member], end_of(index)}, {spec.members[other], end_of(end)},
+                        spec.members[chord]);
+  });
 }
 
 }  // namespace tubecut::joint::detail
