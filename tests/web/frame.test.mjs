@@ -148,6 +148,11 @@ test('fixes change the request as they state', () => {
   assert.deepEqual(body.joints.at(-1).between, ['main right', 'square main right finish']);
   frame.removeMembers(body, new Set([1]));
   assert.ok(!body.others.some(({id}) => id === 'square main right finish'));
+  const corner = {members: ['a', 'b'].map((id) => ({id})), joints: [{between: ['b', 'a'], kind: 'set_on'}]};
+  const detail = 'cut by a up to 20 mm beyond that member\'s end; both end here, so state a mitre of the two, or lengthen a by 20 mm';
+  const [{reported: [{fixes: [mitre]}]}] = summarise([warn('ghost_contact', '/members/1/start_mm', detail)], corner).groups;
+  mitre.apply(corner);
+  assert.deepEqual(corner.joints, [{between: ['b', 'a'], kind: 'mitre'}]);
   const line = {members: [0, 1].map((i) => ({id: `P${i}`, start_mm: [i * 500, 0, 0], end_mm: [i * 500 + 510, 0, 0], outer_diameter_mm: 60, wall_mm: 4}))};
   const overlap = warn('members_overlap', '/members/0', 'it and P1 share metal, up to 4 mm deep, at 0, 0, 0 mm');
   const [{reported: [{fixes: [merge]}]}] = summarise([overlap], line).groups;

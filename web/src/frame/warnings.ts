@@ -90,6 +90,8 @@ function fixesOf(warning: Warning, body: Row, at: number | undefined, other: num
     const within = Math.ceil(Number(missed) + 0.5);
     fixes.push({name: t('Raise within to {within} mm', {within}), apply: (to) => raise(to, within)});
   }
+  if (warning.code === 'ghost_contact' && other !== undefined && /; both end here, so state a mitre of the two/.test(warning.detail))
+    fixes.push({name: t('Mitre the two'), apply: (to) => mitre(to, at, other)});
   const straight = other !== undefined && continues(membersOf(body)[at], membersOf(body)[other]);
   if (straight && body['merge_in_line'] !== true && perPair.has(warning.code)) {
     fixes.push({
@@ -109,6 +111,13 @@ function fixesOf(warning: Warning, body: Row, at: number | undefined, other: num
 function raise(body: Row, within: number): void {
   const connect = body['connect'] as Row | undefined;
   body['connect'] = {...connect, within_mm: Math.max(within, Number(connect?.['within_mm'] ?? 0))};
+}
+
+/** Joins two members that end at one point by the plane between them. */
+function mitre(body: Row, at: number, other: number): void {
+  const between = [at, other].map((i) => membersOf(body)[i]?.['id'] as Json);
+  const apart = (joint: Row) => !between.every((id) => (joint['between'] as Json[]).includes(id));
+  body['joints'] = [...rowsOf(body['joints']).filter(apart), {between, kind: 'mitre'}];
 }
 
 /** Cuts an end by a plane across the member, at its work point. */
