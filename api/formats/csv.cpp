@@ -58,12 +58,12 @@ Csv& Csv::stacked(std::string_view label,
   std::size_t from = 0;
   for (const auto& [name, table] : tables) {
     const auto rows = rows_of(table);
-    labels.pieces.push_back({from, std::vector<std::string>(rows, name)});
+    labels.ranges.push_back({from, std::vector<std::string>(rows, name)});
     for (const auto& column : table.all()) {
       ask();
       auto stack = std::ranges::find(stacks, column.name, &Stack::name);
       if (stack == stacks.end()) stack = stacks.insert(stacks.end(), Stack{column.name, {}});
-      stack->pieces.push_back({from, column.values});
+      stack->ranges.push_back({from, column.values});
     }
     from += rows;
   }
@@ -78,20 +78,20 @@ std::string Csv::print() const {
   std::size_t rows = 0;
   for (const auto& column : columns_) {
     out += (&column == columns_.data() ? "" : ",") + csv_text(column.name);
-    for (const auto& piece : column.pieces)
-      rows = std::max(rows, piece.from + size_of(piece.values));
+    for (const auto& range : column.ranges)
+      rows = std::max(rows, range.from + size_of(range.values));
   }
   out += "\r\n";
-  std::vector<std::size_t> at(columns_.size(), 0);  // the piece that a column is in
+  std::vector<std::size_t> at(columns_.size(), 0);  // the range that a column is in
   for (std::size_t i = 0; i < rows; ++i) {
     ask();
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       if (k > 0) out += ',';
-      const auto& pieces = columns_[k].pieces;
-      while (at[k] < pieces.size() && i >= pieces[at[k]].from + size_of(pieces[at[k]].values))
+      const auto& ranges = columns_[k].ranges;
+      while (at[k] < ranges.size() && i >= ranges[at[k]].from + size_of(ranges[at[k]].values))
         ++at[k];
-      if (at[k] < pieces.size() && i >= pieces[at[k]].from)
-        print_cell(pieces[at[k]].values, i - pieces[at[k]].from, out);
+      if (at[k] < ranges.size() && i >= ranges[at[k]].from)
+        print_cell(ranges[at[k]].values, i - ranges[at[k]].from, out);
     }
     out += "\r\n";
   }

@@ -32,13 +32,13 @@ class Csv {
   [[nodiscard]] std::string print() const;
 
  private:
-  struct Piece {
+  struct RowRange {
     std::size_t from = 0;  // row
     Column::Values values;
   };
   struct Stack {
     std::string name;
-    std::vector<Piece> pieces;  // by their rows
+    std::vector<RowRange> ranges;  // by their rows
   };
   std::vector<std::string> head_;
   std::vector<Stack> columns_;

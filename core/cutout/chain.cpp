@@ -46,7 +46,7 @@ math::Polygon polygon(const Chain& chain) {
   return out;
 }
 
-Result<Segment> segment(const Flat& from, const Piece& piece, double up, std::size_t index) {
+Result<Segment> segment(const Flat& from, const DrawnSegment& piece, double up, std::size_t index) {
   const auto at = "pieces/" + std::to_string(index);
   const Flat to(piece.to.x(), up * piece.to.y());
   if (!piece.centre) {
@@ -146,7 +146,7 @@ Chain rectangle(double along, double round, double radius) {
   return out;
 }
 
-Result<Chain> drawn(const Flat& start, const std::vector<Piece>& pieces, bool mirrored) {
+Result<Chain> drawn(const Flat& start, const std::vector<DrawnSegment>& pieces, bool mirrored) {
   const double up = mirrored ? 1.0 : -1.0;
   const Flat first(start.x(), up * start.y());
   Chain out;

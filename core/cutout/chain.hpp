@@ -44,8 +44,8 @@ using Chain = std::vector<Segment>;
 [[nodiscard]] Chain slot(double length, double width);
 [[nodiscard]] Chain rectangle(double along, double round, double radius);
 
-/// A piece of a drawing, from where the one before it ends: x to the right, y up.
-struct Piece {
+/// A segment of a drawing, from where the one before it ends: x to the right, y up.
+struct DrawnSegment {
   Flat to = Flat::Zero();
   std::optional<Flat> centre = {};  // of an arc
   bool clockwise = false;           // its sense
@@ -56,7 +56,7 @@ struct Piece {
 ///
 /// Errors  contour_open, contour_crosses (also of one without an area); out_of_range (pieces/i: an
 ///         arc's ends lie at different distances from its centre, or a piece has no length).
-[[nodiscard]] Result<Chain> drawn(const Flat& start, const std::vector<Piece>& pieces,
+[[nodiscard]] Result<Chain> drawn(const Flat& start, const std::vector<DrawnSegment>& pieces,
                                   bool mirrored);
 
 /// Turned about the anchor from a towards b, rad.

@@ -22,7 +22,7 @@ struct Rectangle {
 };
 struct Contour {
   Flat start = Flat::Zero();
-  std::vector<Piece> pieces;
+  std::vector<DrawnSegment> pieces;
   bool mirrored = false;
   bool of_file = false;  // read from a DXF text: errors state places of the drawing, not pieces
 };

@@ -46,7 +46,7 @@ class Drawing {
               kHalvings);
   }
 
-  [[nodiscard]] std::vector<Piece> take() { return std::move(out_); }
+  [[nodiscard]] std::vector<DrawnSegment> take() { return std::move(out_); }
 
  private:
   [[nodiscard]] Vector2d tangent(const HullPart& part, double share) const {
@@ -93,7 +93,7 @@ class Drawing {
   Matrix2d onto_;
   Vector2d shift_;
   bool rigid_;
-  std::vector<Piece> out_;
+  std::vector<DrawnSegment> out_;
 };
 }  // namespace
 
@@ -106,22 +106,22 @@ Vector2d HullPart::at(double share) const {
 std::vector<HullPart> parts_of(const section::Curve& curve, const Vector2d& way) {
   std::vector<HullPart> out;
   const double side = elementary::atan2(way.y(), way.x()) + 0.5 * kPi;
-  for (const auto& piece : curve.pieces()) {
-    if (!piece.is_arc()) {
-      const Vector2d along(-piece.normal.y(), piece.normal.x());
-      out.push_back({.from = piece.origin, .to = piece.origin + piece.length * along});
+  for (const auto& segment : curve.segments()) {
+    if (!segment.is_arc()) {
+      const Vector2d along(-segment.normal.y(), segment.normal.x());
+      out.push_back({.from = segment.origin, .to = segment.origin + segment.length * along});
       continue;
     }
-    const double sweep = piece.length / piece.radius;
+    const double sweep = segment.length / segment.radius;
     std::vector<double> ends{0.0, sweep};
     for (const double split : {side, side + kPi}) {
-      const double from = math::whole_turn(split - piece.nu);
+      const double from = math::whole_turn(split - segment.nu);
       if (from > kShort && from < sweep - kShort) ends.push_back(from);
     }
     std::ranges::sort(ends);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i)
       out.push_back(
-          arc_part(piece.origin, piece.radius, piece.nu + ends[i], ends[i + 1] - ends[i]));
+          arc_part(segment.origin, segment.radius, segment.nu + ends[i], ends[i + 1] - ends[i]));
   }
   return out;
 }

@@ -153,9 +153,9 @@ double thickest(const section::Section& section) {
   const section::Wall wall(section);
   const auto& outer = wall.outer();
   double out = section.wall;
-  for (const auto& piece : outer.pieces())
+  for (const auto& segment : outer.segments())
     for (const double share : {0.0, 0.5})
-      out = std::max(out, wall.across(outer.at(piece.from + share * piece.length)).wall);
+      out = std::max(out, wall.across(outer.at(segment.from + share * segment.length)).wall);
   return out;
 }
 

@@ -17,8 +17,8 @@ WallLine::WallLine(std::vector<WallPoint> points, bool closed) : points_(std::mo
   const auto n = points_.size();
   for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
     if (i % kBlock == 0) boxes_.emplace_back();
-    pieces_.push_back({points_[i], points_[(i + 1) % n]});
-    for (const auto& p : {pieces_[i].a, pieces_[i].b}) {
+    segments_.push_back({points_[i], points_[(i + 1) % n]});
+    for (const auto& p : {segments_[i].a, segments_[i].b}) {
       boxes_.back().take(p);
       whole_.take(p);
     }
@@ -27,14 +27,14 @@ WallLine::WallLine(std::vector<WallPoint> points, bool closed) : points_(std::mo
 
 bool WallLine::holds(const WallPoint& p) const {
   bool inside = false;
-  for (const auto& [a, b] : pieces_)
+  for (const auto& [a, b] : segments_)
     if ((a.y() > p.y()) != (b.y() > p.y()) &&
         p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
       inside = !inside;
   return inside;
 }
 
-WallWay WallLine::way(const WallPoint& p, const Piece& to) {
+WallWay WallLine::way(const WallPoint& p, const LineSegment& to) {
   const WallPoint along = to.b - to.a;
   const double square = along.squaredNorm();
   const double t = square > 0.0 ? std::clamp((p - to.a).dot(along) / square, 0.0, 1.0) : 0.0;
@@ -42,8 +42,8 @@ WallWay WallLine::way(const WallPoint& p, const Piece& to) {
   return {(foot - p).norm(), p, foot};
 }
 
-WallWay WallLine::way(const Piece& one, const Piece& other) {
-  const auto side = [](const Piece& of, const WallPoint& p) {
+WallWay WallLine::way(const LineSegment& one, const LineSegment& other) {
+  const auto side = [](const LineSegment& of, const WallPoint& p) {
     const WallPoint along = of.b - of.a, from = p - of.a;
     return along.x() * from.y() - along.y() * from.x();
   };
@@ -61,17 +61,17 @@ WallWay WallLine::way(const Piece& one, const Piece& other) {
   return out;
 }
 
-std::span<const WallLine::Piece> WallLine::block(std::size_t i) const {
+std::span<const WallLine::LineSegment> WallLine::block(std::size_t i) const {
   const auto from = i * kBlock;
-  return std::span(pieces_).subspan(from, std::min(kBlock, pieces_.size() - from));
+  return std::span(segments_).subspan(from, std::min(kBlock, segments_.size() - from));
 }
 
 /// A bound of the shortest way from above: between the blocks' first points.
 double WallLine::reach(const WallLine& other, const WallPoint& shift) const {
   double out = kFar;
-  for (std::size_t i = 0; i < pieces_.size(); i += kBlock)
-    for (std::size_t j = 0; j < other.pieces_.size(); j += kBlock)
-      out = std::min(out, (other.pieces_[j].a + shift - pieces_[i].a).squaredNorm());
+  for (std::size_t i = 0; i < segments_.size(); i += kBlock)
+    for (std::size_t j = 0; j < other.segments_.size(); j += kBlock)
+      out = std::min(out, (other.segments_[j].a + shift - segments_[i].a).squaredNorm());
   return std::sqrt(out) * (1.0 + 1e-12);  // rounding must not hide the pair itself
 }
 
@@ -81,9 +81,10 @@ void WallLine::shorten(const WallLine& other, const WallPoint& shift, WallWay& b
     for (std::size_t j = 0; j < other.boxes_.size(); ++j) {
       if (boxes_[i].apart(other.boxes_[j], shift) > std::min(best.length, within)) continue;
       if (best.length == 0.0) return;
-      for (const auto& piece : block(i))
+      for (const auto& segment : block(i))
         for (const auto& [a, b] : other.block(j))
-          if (const auto w = way(piece, Piece{a + shift, b + shift}); w.length < best.length)
+          if (const auto w = way(segment, LineSegment{a + shift, b + shift});
+              w.length < best.length)
             best = w;
     }
 }

@@ -31,7 +31,7 @@ struct WallBox {
   [[nodiscard]] double apart(const WallBox& other, const WallPoint& shift) const;
 };
 
-/// A line of straight pieces on a developed wall, in blocks of neighbours that lie in a box each.
+/// A line of straight segments on a developed wall, in blocks of neighbours that lie in a box each.
 class WallLine {
  public:
   WallLine(std::vector<WallPoint> points, bool closed);
@@ -41,22 +41,22 @@ class WallLine {
   /// Whether a place lies within the closed line.
   [[nodiscard]] bool holds(const WallPoint& p) const;
   /// The shortest way to another line that is moved by `shift`, if it is shorter than `best`.
-  /// Cost  the square of the blocks, and the pieces of those that are near.
+  /// Cost  the square of the blocks, and the segments of those that are near.
   void shorten(const WallLine& other, const WallPoint& shift, WallWay& best) const;
 
  private:
-  struct Piece {
+  struct LineSegment {
     WallPoint a, b;
   };
   static constexpr std::size_t kBlock = 32;
 
-  static WallWay way(const WallPoint& p, const Piece& to);
-  static WallWay way(const Piece& one, const Piece& other);
-  [[nodiscard]] std::span<const Piece> block(std::size_t i) const;
+  static WallWay way(const WallPoint& p, const LineSegment& to);
+  static WallWay way(const LineSegment& one, const LineSegment& other);
+  [[nodiscard]] std::span<const LineSegment> block(std::size_t i) const;
   [[nodiscard]] double reach(const WallLine& other, const WallPoint& shift) const;
 
   std::vector<WallPoint> points_;
-  std::vector<Piece> pieces_;
+  std::vector<LineSegment> segments_;
   std::vector<WallBox> boxes_;
   WallBox whole_;
 };

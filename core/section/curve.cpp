@@ -47,7 +47,7 @@ Curve::Curve(double height, double width, double corner)
                                                        : 2.0 * flat);
   }
   girth_ = start_[kParts];
-  join_pieces();
+  join_segments();
 }
 
 Vector2d Curve::corner_centre(int corner) const {
@@ -123,19 +123,19 @@ double Curve::on_corner(int corner, double angle) const {
   return start_[part_of_corner(corner)] + corner_ * angle;
 }
 
-void Curve::join_pieces() {
-  const auto add = [&](const Piece& piece) {
-    if (!(piece.length > 0.0)) return;
-    if (!pieces_.empty()) {
-      auto& last = pieces_.back();
-      const bool same = last.radius == piece.radius &&
-                        (piece.is_arc() ? last.origin == piece.origin : last.nu == piece.nu);
+void Curve::join_segments() {
+  const auto add = [&](const OutlineSegment& segment) {
+    if (!(segment.length > 0.0)) return;
+    if (!segments_.empty()) {
+      auto& last = segments_.back();
+      const bool same = last.radius == segment.radius &&
+                        (segment.is_arc() ? last.origin == segment.origin : last.nu == segment.nu);
       if (same) {
-        last.length += piece.length;
+        last.length += segment.length;
         return;
       }
     }
-    pieces_.push_back(piece);
+    segments_.push_back(segment);
   };
   for (std::size_t part = 0; part < kParts; ++part) {
     const double length = start_[part + 1] - start_[part];
@@ -151,10 +151,10 @@ void Curve::join_pieces() {
              is_corner(part) ? corner_centre(face) : Vector2d(face_distance(face) * n + along * t),
          .normal = n});
   }
-  // Across the datum the last piece goes on as the first.
-  auto& first = pieces_.front();
-  const auto& last = pieces_.back();
-  const bool joined = pieces_.size() > 1 && first.radius == last.radius &&
+  // Across the datum the last segment goes on as the first.
+  auto& first = segments_.front();
+  const auto& last = segments_.back();
+  const bool joined = segments_.size() > 1 && first.radius == last.radius &&
                       (first.is_arc() ? first.origin == last.origin : first.normal == last.normal);
   if (joined) {
     first.from = last.from - girth_;
@@ -162,11 +162,11 @@ void Curve::join_pieces() {
     first.nu = last.nu - kTwoPi;
     first.normal = last.normal;
     first.origin = last.origin;
-    pieces_.pop_back();
+    segments_.pop_back();
   }
-  if (pieces_.size() == 1) return;
-  for (const auto& piece : pieces_)
-    seams_.push_back(piece.from < 0.0 ? piece.from + girth_ : piece.from);
+  if (segments_.size() == 1) return;
+  for (const auto& segment : segments_)
+    seams_.push_back(segment.from < 0.0 ? segment.from + girth_ : segment.from);
   std::ranges::sort(seams_);
 }
 

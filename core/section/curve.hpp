@@ -22,7 +22,7 @@ struct Station {
 };
 
 /// A straight or circular part of an outline, as long as it goes on.
-struct Piece {
+struct OutlineSegment {
   double from = 0.0;    // s where it begins; below 0 if it crosses the datum
   double length = 0.0;  // > 0
   double nu = 0.0;      // rad, where it begins
@@ -52,8 +52,8 @@ class Curve {
   /// Returns the largest distance from the axis.
   [[nodiscard]] double reach() const;
 
-  /// Returns the place at s, which is taken modulo the girth. If two pieces meet there, it belongs
-  /// to the second.
+  /// Returns the place at s, which is taken modulo the girth. If two segments meet there, it
+  /// belongs to the second.
   [[nodiscard]] Station at(double s) const;
   /// Returns the place `way` (mm, >= 0) after another. Costs a fifth of `at` if both lie on one
   /// face or one corner within a sixth of a turn of each other; equal to `at` within rounding.
@@ -62,8 +62,8 @@ class Curve {
   [[nodiscard]] double on_face(int face, double along) const;
   [[nodiscard]] double on_corner(int corner, double angle) const;
 
-  /// Pieces with a length, ascending, each as long as its curvature and centre stay.
-  [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+  /// Segments with a length, ascending, each as long as its curvature and centre stay.
+  [[nodiscard]] const std::vector<OutlineSegment>& segments() const { return segments_; }
   /// s of the places where the curvature jumps, ascending, [0, girth).
   [[nodiscard]] const std::vector<double>& seams() const { return seams_; }
 
@@ -73,13 +73,13 @@ class Curve {
   // Faces and corners in the order of s: half of face 1, corner 1, face 2, ..., half of face 1.
   static constexpr std::size_t kParts = 9;
   [[nodiscard]] static std::size_t axis(int face) { return face % 2 == 1 ? 0 : 1; }
-  void join_pieces();
+  void join_segments();
 
   double corner_;
   std::array<double, 2> distance_, half_flat_;  // of faces 1 and 3; of faces 2 and 4
   std::array<double, kParts + 1> start_{};      // s where each part begins
   double girth_ = 0.0;
-  std::vector<Piece> pieces_;
+  std::vector<OutlineSegment> segments_;
   std::vector<double> seams_;
 };
 

@@ -60,7 +60,7 @@ cutout::Contour decode_contour_shape(Reader& in) {
   static constexpr std::array kSenses{Option<bool>{"ccw", false}, Option<bool>{"cw", true}};
   cutout::Contour out{.start = decode_place(in, "start_mm"), .pieces = {}};
   out.pieces = in.array("pieces", {.min = 1, .max = kMostPieces}, [](Reader& p) {
-    cutout::Piece piece;
+    cutout::DrawnSegment piece;
     const auto arc = p.tag("kind", kKinds);
     piece.to = decode_place(p, "to_mm");
     if (arc.value_or(false)) {

@@ -269,8 +269,8 @@ Result<std::vector<Way>> joined(std::vector<Way> ways) {
 }
 
 /// A way as a piece of a contour; its arc passes through both ends, which may have been moved.
-cutout::Piece piece_of(const Way& way) {
-  cutout::Piece out{.to = way.to};
+cutout::DrawnSegment piece_of(const Way& way) {
+  cutout::DrawnSegment out{.to = way.to};
   if (way.bulge == 0.0) return out;
   const Vector2d half = 0.5 * (way.to - way.from), left(-half.y(), half.x());
   const double b = way.bulge;

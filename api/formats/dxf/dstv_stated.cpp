@@ -70,7 +70,7 @@ std::string shape_words(const cutout::Shape& shape) {
          stated(drawing.start) + (drawing.mirrored ? "; mirrored" : "");
 }
 
-std::string piece_words(const cutout::Piece& piece) {
+std::string piece_words(const cutout::DrawnSegment& piece) {
   if (!piece.centre) return "line to " + stated(piece.to);
   return std::string("arc ") + (piece.clockwise ? "cw" : "ccw") + " to " + stated(piece.to) +
          " about " + stated(*piece.centre);

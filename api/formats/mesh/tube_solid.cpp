@@ -42,7 +42,7 @@ struct LaidWall {
   std::size_t wall, edges;
   bool along;  // its rows run counter-clockwise round the kept metal below them, seen from outside
   std::vector<Station> stations;
-  std::vector<std::vector<std::size_t>> at, piece;  // vertex at, edge behind, [edge][station]
+  std::vector<std::vector<std::size_t>> at, span;  // vertex at, edge behind, [edge][station]
 };
 
 struct Seam {
@@ -217,7 +217,7 @@ void Builder::add_wall(const TubeCut& cut, const WallCurve& curve) {
                 .along = against_the_clock(cut, curve),
                 .stations = stations(cut, curve),
                 .at = {},
-                .piece = {}};
+                .span = {}};
   std::vector<Place> places;
   for (const auto& s : wall.stations) places.push_back(s.place);
   out_.walls.push_back(curve.spline(places));
@@ -237,7 +237,7 @@ void Builder::lay_edges(LaidWall& wall) {
   const auto& spline = out_.walls[wall.wall];
   const auto n = wall.stations.size();
   wall.at.assign(wall.edges, std::vector<std::size_t>(n + 1));
-  wall.piece.assign(wall.edges, std::vector<std::size_t>(n));
+  wall.span.assign(wall.edges, std::vector<std::size_t>(n));
   for (std::size_t k = 0; k < wall.edges; ++k) {
     std::vector<std::size_t> with;
     for (std::size_t s = 0; s < n; ++s) {
@@ -249,10 +249,10 @@ void Builder::lay_edges(LaidWall& wall) {
     with.push_back(n);
     for (std::size_t i = 0; i + 1 < with.size(); ++i) {
       const auto from = with[i], to = with[i + 1];
-      const TubeSolid::Piece curve{wall.wall, k, joint(wall, from), joint(wall, to)};
-      wall.piece[k][from] = edge(wall.at[k][from], wall.at[k][to], curve);
+      const TubeSolid::EdgeSpan curve{wall.wall, k, joint(wall, from), joint(wall, to)};
+      wall.span[k][from] = edge(wall.at[k][from], wall.at[k][to], curve);
       if (k == 0 || k + 1 == wall.edges)
-        borders_[k == 0 ? 0 : 1].push_back({{wall.piece[k][from], wall.along}, true, 0});
+        borders_[k == 0 ? 0 : 1].push_back({{wall.span[k][from], wall.along}, true, 0});
     }
   }
 }
@@ -270,10 +270,10 @@ void Builder::rule_faces(const LaidWall& wall) {
       const auto from = across[i], to = next == 0 ? wall.stations.size() : across[next];
       TubeSolid::Loop loop;
       for (auto s = from; s < to; ++s)
-        if (wall.stations[s].vertex[k]) loop.emplace_back(wall.piece[k][s], true);
+        if (wall.stations[s].vertex[k]) loop.emplace_back(wall.span[k][s], true);
       loop.emplace_back(lines[next], true);
       for (auto s = to; s-- > from;)
-        if (wall.stations[s].vertex[k + 1]) loop.emplace_back(wall.piece[k + 1][s], false);
+        if (wall.stations[s].vertex[k + 1]) loop.emplace_back(wall.span[k + 1][s], false);
       loop.emplace_back(lines[i], false);
       if (!wall.along) turn(loop);
       const TubeSolid::Ruled surface{wall.wall, k, joint(wall, from), joint(wall, to)};

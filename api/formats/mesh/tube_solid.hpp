@@ -27,12 +27,12 @@ struct TubeSolid {
     double radius = 0.0, z = 0.0;  // counter-clockwise about z
   };
   /// From joint to joint of one edge of a cut wall.
-  struct Piece {
+  struct EdgeSpan {
     std::size_t wall = 0, edge = 0, from = 0, to = 0;
   };
   struct Edge {
     std::size_t from = 0, to = 0;
-    std::variant<Line, Arc, Piece> curve;
+    std::variant<Line, Arc, EdgeSpan> curve;
   };
   /// Edges head to tail, the face to the left as seen from outside; false: against its direction.
   using Loop = std::vector<std::pair<std::size_t, bool>>;

@@ -59,14 +59,14 @@ class Printer {
   [[nodiscard]] const std::vector<Id>& cut_faces() const { return cut_faces_; }
 
  private:
-  std::vector<Id> points(const TubeSolid::Piece& piece);
-  [[nodiscard]] bool has_corner(const TubeSolid::Piece& piece) const;
-  [[nodiscard]] bool polygonal(const TubeSolid::Piece& piece) const;
+  std::vector<Id> points(const TubeSolid::EdgeSpan& span);
+  [[nodiscard]] bool has_corner(const TubeSolid::EdgeSpan& span) const;
+  [[nodiscard]] bool polygonal(const TubeSolid::EdgeSpan& span) const;
   [[nodiscard]] std::vector<const TubeSolid::Cylinder*> cylinders() const;
-  Id on_cylinder(Id curve, const TubeSolid::Piece& piece, const TubeSolid::Cylinder& cylinder);
+  Id on_cylinder(Id curve, const TubeSolid::EdgeSpan& span, const TubeSolid::Cylinder& cylinder);
   Id curve(const TubeSolid::Edge& edge, const TubeSolid::Line&);
   Id curve(const TubeSolid::Edge& edge, const TubeSolid::Arc& arc);
-  Id curve(const TubeSolid::Edge& edge, const TubeSolid::Piece& piece);
+  Id curve(const TubeSolid::Edge& edge, const TubeSolid::EdgeSpan& span);
   Id surface(const TubeSolid::Cylinder& cylinder);
   Id surface(const TubeSolid::Plane& plane);
   Id surface(const TubeSolid::Ruled& ruled);
@@ -77,35 +77,36 @@ class Printer {
   std::vector<Id> cut_faces_;
 };
 
-std::vector<Id> Printer::points(const TubeSolid::Piece& piece) {
-  const auto& spline = solid_.walls[piece.wall];
+std::vector<Id> Printer::points(const TubeSolid::EdgeSpan& span) {
+  const auto& spline = solid_.walls[span.wall];
   std::vector<Id> out;
-  for (auto i = spline.joints[piece.from].control; i <= spline.joints[piece.to].control; ++i) {
+  for (auto i = spline.joints[span.from].control; i <= spline.joints[span.to].control; ++i) {
     pace_.turn();
-    out.push_back(entities_.point(spline.points[piece.edge][i]));
+    out.push_back(entities_.point(spline.points[span.edge][i]));
   }
   return out;
 }
 
-Id Printer::curve(const TubeSolid::Edge&, const TubeSolid::Piece& piece) {
-  return entities_.add("B_SPLINE_CURVE_WITH_KNOTS('',3," + step_refs(points(piece)) +
+Id Printer::curve(const TubeSolid::Edge&, const TubeSolid::EdgeSpan& span) {
+  return entities_.add("B_SPLINE_CURVE_WITH_KNOTS('',3," + step_refs(points(span)) +
                        ",.UNSPECIFIED.,.F.,.F.," +
-                       knots(solid_.walls[piece.wall], piece.from, piece.to) + ",.UNSPECIFIED.)");
+                       knots(solid_.walls[span.wall], span.from, span.to) + ",.UNSPECIFIED.)");
 }
 
 /// Whether a smooth curve through its joints would cut a corner within it by more than kRounded.
-bool Printer::has_corner(const TubeSolid::Piece& piece) const {
-  const auto& spline = solid_.walls[piece.wall];
-  const auto& points = spline.points[piece.edge];
-  for (auto i = piece.from + 1; i < piece.to; ++i) {
+bool Printer::has_corner(const TubeSolid::EdgeSpan& span) const {
+  const auto& spline = solid_.walls[span.wall];
+  const auto& points = spline.points[span.edge];
+  for (auto i = span.from + 1; i < span.to; ++i) {
     const auto& joint = spline.joints[i];
     if (!joint.full) continue;
     const auto c = joint.control;
     const Eigen::Vector3d before = (points[c] - points[c - 1]).normalized();
     const Eigen::Vector3d after = (points[c + 1] - points[c]).normalized();
-    const double span =
+    const double shorter =
         std::min(joint.u - spline.joints[i - 1].u, spline.joints[i + 1].u - joint.u);
-    if (before.cross(after).norm() * span > 8.0 * kRounded || before.dot(after) < 0.0) return true;
+    if (before.cross(after).norm() * shorter > 8.0 * kRounded || before.dot(after) < 0.0)
+      return true;
   }
   return false;
 }
@@ -122,12 +123,12 @@ std::vector<const TubeSolid::Cylinder*> Printer::cylinders() const {
   return out;
 }
 
-/// Whether a piece is straight in (phi, z) from joint to joint, by its parameter too.
-bool Printer::polygonal(const TubeSolid::Piece& piece) const {
-  const auto& spline = solid_.walls[piece.wall];
-  const auto& flat = spline.flat[piece.edge];
-  const auto& points = spline.points[piece.edge];
-  for (auto i = piece.from; i < piece.to; ++i) {
+/// Whether a span is straight in (phi, z) from joint to joint, by its parameter too.
+bool Printer::polygonal(const TubeSolid::EdgeSpan& span) const {
+  const auto& spline = solid_.walls[span.wall];
+  const auto& flat = spline.flat[span.edge];
+  const auto& points = spline.points[span.edge];
+  for (auto i = span.from; i < span.to; ++i) {
     const auto &a = spline.joints[i], &b = spline.joints[i + 1];
     const double angle = flat[b.control].x() - flat[a.control].x();
     const double length = (points[b.control] - points[a.control]).norm();
@@ -144,12 +145,12 @@ bool Printer::polygonal(const TubeSolid::Piece& piece) const {
 
 /// Prints the curve together with its (angle, height) on the cylinder, because readers that compute
 /// those themselves put a smooth curve through its corners.
-Id Printer::on_cylinder(Id curve, const TubeSolid::Piece& piece,
+Id Printer::on_cylinder(Id curve, const TubeSolid::EdgeSpan& span,
                         const TubeSolid::Cylinder& cylinder) {
-  const auto& spline = solid_.walls[piece.wall];
-  const auto& flat = spline.flat[piece.edge];
-  const bool lines = polygonal(piece);
-  const auto first = spline.joints[piece.from].control, last = spline.joints[piece.to].control;
+  const auto& spline = solid_.walls[span.wall];
+  const auto& flat = spline.flat[span.edge];
+  const bool lines = polygonal(span);
+  const auto first = spline.joints[span.from].control, last = spline.joints[span.to].control;
   const double middle = 0.5 * (flat[first].x() + flat[last].x()) - cylinder.begins;
   const double begins = cylinder.begins + kTwoPi * std::floor(middle / kTwoPi);
   std::vector<Id> points;
@@ -160,7 +161,7 @@ Id Printer::on_cylinder(Id curve, const TubeSolid::Piece& piece,
   const auto line =
       entities_.add(std::string("B_SPLINE_CURVE_WITH_KNOTS('',") + (lines ? "1" : "3") + "," +
                     step_refs(points) + ",.UNSPECIFIED.,.F.,.F.," +
-                    knots(spline, piece.from, piece.to, lines ? 1 : 3) + ",.UNSPECIFIED.)");
+                    knots(spline, span.from, span.to, lines ? 1 : 3) + ",.UNSPECIFIED.)");
   const auto context = entities_.shared(
       "(GEOMETRIC_REPRESENTATION_CONTEXT(2)PARAMETRIC_REPRESENTATION_CONTEXT()"
       "REPRESENTATION_CONTEXT('',''))");
@@ -196,10 +197,10 @@ Id Printer::surface(const TubeSolid::Plane& plane) {
 }
 
 Id Printer::surface(const TubeSolid::Ruled& ruled) {
-  TubeSolid::Piece piece{ruled.wall, ruled.edge, ruled.from, ruled.to};
-  const auto inner = points(piece);
-  ++piece.edge;
-  const auto outer = points(piece);
+  TubeSolid::EdgeSpan span{ruled.wall, ruled.edge, ruled.from, ruled.to};
+  const auto inner = points(span);
+  ++span.edge;
+  const auto outer = points(span);
   std::string grid = "(";
   for (std::size_t i = 0; i < inner.size(); ++i)
     grid += (i > 0 ? "," : "") + step_refs({inner[i], outer[i]});
@@ -216,9 +217,9 @@ Id Printer::boundary() {
   for (std::size_t i = 0; i < solid_.edges.size(); ++i) {
     const auto& edge = solid_.edges[i];
     auto along = std::visit([&](const auto& of) { return curve(edge, of); }, edge.curve);
-    const auto* piece = std::get_if<TubeSolid::Piece>(&edge.curve);
-    if (piece != nullptr && on[i] != nullptr && has_corner(*piece))
-      along = on_cylinder(along, *piece, *on[i]);
+    const auto* span = std::get_if<TubeSolid::EdgeSpan>(&edge.curve);
+    if (span != nullptr && on[i] != nullptr && has_corner(*span))
+      along = on_cylinder(along, *span, *on[i]);
     edges.push_back(entities_.add("EDGE_CURVE(''," + step_ref(vertices[edge.from]) + "," +
                                   step_ref(vertices[edge.to]) + "," + step_ref(along) + ",.T.)"));
   }

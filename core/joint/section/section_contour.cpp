@@ -8,7 +8,7 @@
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/cutters/elbow_leg.hpp"
-#include "core/joint/section/piece_events.hpp"
+#include "core/joint/section/outline_events.hpp"
 
 namespace tubecut::joint {
 namespace {
@@ -79,14 +79,14 @@ class Divider {
   [[nodiscard]] double same_place() const { return kSamePlace * curve_.girth() / kTwoPi; }
 
   void collect() {
-    const detail::PieceSpec spec{.cutters = out_.cutters,
-                                 .curve = curve_,
-                                 .wide = curve_.reach(),
-                                 .scan = curve_.girth() / kScanPlaces};
+    const detail::OutlineEventSpec spec{.cutters = out_.cutters,
+                                        .curve = curve_,
+                                        .wide = curve_.reach(),
+                                        .scan = curve_.girth() / kScanPlaces};
     std::vector<double> found;
-    for (const auto& piece : curve_.pieces()) {
+    for (const auto& segment : curve_.segments()) {
       if (stopped()) return;
-      auto own = detail::piece_events(spec, piece);
+      auto own = detail::outline_events(spec, segment);
       for (const double s : own.places) found.push_back(turned(s));
       for (const auto& kink : own.kinks) kinks_.push_back({turned(kink.s), kink.cutter});
       for (const auto& one : own.hidden) hidden_.push_back({one.cutter, turned(one.s)});
@@ -197,8 +197,8 @@ class Divider {
   std::vector<bool> met_;
   std::vector<double> places_;  // ascending, [0, girth)
   std::vector<Label> labels_;   // labels_[k] holds between place k and the next one
-  std::vector<detail::PieceEvents::Kink> kinks_;
-  std::vector<detail::PieceEvents::Hidden> hidden_;
+  std::vector<detail::OutlineEvents::Kink> kinks_;
+  std::vector<detail::OutlineEvents::Hidden> hidden_;
 };
 
 Result<void> Divider::check_closed() const {

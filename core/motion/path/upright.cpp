@@ -54,11 +54,13 @@ Upright::Upright(const section::Section& section, Angle lean)
     : curve_(section.outer()),
       half_width_(6.0 * section.corner * lean.rad()),
       step_(std::min({kLongestStep, section.corner * kStepAngle, half_width_ / kStepsOfBlend})) {
-  const auto& pieces = curve_.pieces();
-  const auto curvature = [](const section::Piece& p) { return p.is_arc() ? 1.0 / p.radius : 0.0; };
-  for (std::size_t i = 0; i < pieces.size() && pieces.size() > 1; ++i) {
-    const auto& before = pieces[(i + pieces.size() - 1) % pieces.size()];
-    seams_.push_back({pieces[i].from, curvature(pieces[i]) - curvature(before)});
+  const auto& segments = curve_.segments();
+  const auto curvature = [](const section::OutlineSegment& p) {
+    return p.is_arc() ? 1.0 / p.radius : 0.0;
+  };
+  for (std::size_t i = 0; i < segments.size() && segments.size() > 1; ++i) {
+    const auto& before = segments[(i + segments.size() - 1) % segments.size()];
+    seams_.push_back({segments[i].from, curvature(segments[i]) - curvature(before)});
   }
 }
 
@@ -93,14 +95,14 @@ std::vector<double> Upright::places(double from, double to) const {
     for (int k = 0; k <= static_cast<int>(steps); ++k)
       out.push_back(low + (high - low) * k / steps);
   };
-  for (const auto& piece : curve_.pieces()) {
+  for (const auto& segment : curve_.segments()) {
     // Of a flat only its ends are blended; a round outline is one arc.
     const double reach = seams_.empty() ? 0.0 : half_width_;
-    const double last = std::floor((to - piece.from + reach) / girth);
-    for (double turn = std::floor((from - piece.to() - reach) / girth); turn <= last; ++turn) {
-      if (!piece.is_arc()) continue;
-      const double start = piece.from - reach + turn * girth;
-      const double end = piece.to() + reach + turn * girth;
+    const double last = std::floor((to - segment.from + reach) / girth);
+    for (double turn = std::floor((from - segment.to() - reach) / girth); turn <= last; ++turn) {
+      if (!segment.is_arc()) continue;
+      const double start = segment.from - reach + turn * girth;
+      const double end = segment.to() + reach + turn * girth;
       if (end > from && start < to) add(start, end);
     }
   }

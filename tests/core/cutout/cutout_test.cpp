@@ -25,7 +25,7 @@ Flat place(const Json& pair, std::size_t first = 0) {
 Contour contour_of(const Json& shape) {
   Contour out{.start = place(at(shape, "start")), .pieces = {}, .mirrored = true};
   for (const auto& piece : *at(shape, "pieces").as<Json::Array>()) {
-    Piece one{.to = place(piece, 1)};
+    DrawnSegment one{.to = place(piece, 1)};
     if (text(piece, "0") == "arc") {
       one.centre = place(piece, 4);
       one.clockwise = text(piece, "6") == "b to a";
@@ -290,13 +290,15 @@ TEST_F(RandomCutouts, DevelopedTakesLessThanFlatAndStraightTakesMore) {
 }
 
 TEST(Cutout, ADrawingIsTheSameHoweverItIsBegunAndTurned) {
-  const std::vector<Piece> forth{
+  const std::vector<DrawnSegment> forth{
       {.to = {20, 0}}, {.to = {20, 10}}, {.to = {0, 10}}, {.to = {0, 0}}};
-  const std::vector<Piece> back{{.to = {0, 10}}, {.to = {20, 10}}, {.to = {20, 0}}, {.to = {0, 0}}};
-  const std::vector<Piece> split{{.to = {20, 5}}, {.to = {20, 10}}, {.to = {0, 10}},
-                                 {.to = {0, 0}},  {.to = {5, 0}},   {.to = {20, 0}}};
+  const std::vector<DrawnSegment> back{
+      {.to = {0, 10}}, {.to = {20, 10}}, {.to = {20, 0}}, {.to = {0, 0}}};
+  const std::vector<DrawnSegment> split{{.to = {20, 5}}, {.to = {20, 10}}, {.to = {0, 10}},
+                                        {.to = {0, 0}},  {.to = {5, 0}},   {.to = {20, 0}}};
   const Laying laying({.outer_radius = 30.0, .wall = 4.0}, Lay::prism, false);
-  const auto volume = [&](const Flat& start, const std::vector<Piece>& pieces, bool mirrored) {
+  const auto volume = [&](const Flat& start, const std::vector<DrawnSegment>& pieces,
+                          bool mirrored) {
     return taken(laying, drawn(start, pieces, mirrored).value()).volume;
   };
   const double expected = volume({0, 0}, forth, false);

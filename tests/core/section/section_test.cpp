@@ -129,9 +129,9 @@ TEST(Section, EveryPlaceOfTheBoreHasItsLineOutside) {
 TEST(Section, OvalHasFourSeamsAndRoundNone) {
   const Curve oval(120, 60, 30), round(88.9, 88.9, 44.45);
   EXPECT_EQ(oval.seams().size(), 4U);
-  EXPECT_EQ(oval.pieces().size(), 4U);
+  EXPECT_EQ(oval.segments().size(), 4U);
   EXPECT_TRUE(round.seams().empty());
-  ASSERT_EQ(round.pieces().size(), 1U);
+  ASSERT_EQ(round.segments().size(), 1U);
   for (double phi = 0.0; phi < 6.2; phi += 0.1) {
     const auto at = round.at(44.45 * phi);
     EXPECT_NEAR(at.nu, phi, 1e-14);

@@ -58,20 +58,20 @@ void BrokenScale::place(double room) {
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     if (i > 0) {
       const double gap = gaps[i - 1], drawn = std::min(gap, widest);
-      pieces_.push_back({shown_[i - 1].second, shown_[i].first, at, drawn / gap});
+      segments_.push_back({shown_[i - 1].second, shown_[i].first, at, drawn / gap});
       if (drawn < gap * (1.0 - 1e-9)) breaks_.push_back(at + 0.5 * drawn);
       at += drawn;
     }
-    pieces_.push_back({shown_[i].first, shown_[i].second, at, 1.0});
+    segments_.push_back({shown_[i].first, shown_[i].second, at, 1.0});
     at += scale_ * (shown_[i].second - shown_[i].first);
   }
 }
 
 double BrokenScale::x(double z) const {
-  const auto* piece = &pieces_.front();
-  for (const auto& one : pieces_)
-    if (z >= one.from) piece = &one;
-  return piece->at + (z - piece->from) * scale_ * piece->shortened;
+  const auto* segment = &segments_.front();
+  for (const auto& one : segments_)
+    if (z >= one.from) segment = &one;
+  return segment->at + (z - segment->from) * scale_ * segment->shortened;
 }
 
 }  // namespace tubecut::api

@@ -22,7 +22,7 @@ class BrokenScale {
   [[nodiscard]] const std::vector<double>& breaks() const { return breaks_; }
 
  private:
-  struct Piece {
+  struct LinearSegment {
     double from = 0.0, to = 0.0;       // z
     double at = 0.0, shortened = 1.0;  // x of `from`; of a gap, the share that is drawn
   };
@@ -30,7 +30,7 @@ class BrokenScale {
   void place(double room);
 
   std::vector<Range> shown_;
-  std::vector<Piece> pieces_;
+  std::vector<LinearSegment> segments_;
   std::vector<double> breaks_;
   double scale_;
 };

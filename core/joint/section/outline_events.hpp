@@ -11,7 +11,7 @@
 /// For the contour of a section only: where one flat or arc of it may have events.
 namespace tubecut::joint::detail {
 
-struct PieceEvents {
+struct OutlineEvents {
   std::vector<double> places;  // s, not reduced to one turn, in any order; some are no events
   struct Kink {
     double s;
@@ -27,12 +27,13 @@ struct PieceEvents {
 
 /// `wide`: a radius about the axis that the section lies within; `scan`: mm between places where
 /// what has no closed form is looked at.
-struct PieceSpec {
+struct OutlineEventSpec {
   std::span<const PreparedCutter> cutters;
   const section::Curve& curve;
   double wide, scan;
 };
-[[nodiscard]] PieceEvents piece_events(const PieceSpec& spec, const section::Piece& piece);
+[[nodiscard]] OutlineEvents outline_events(const OutlineEventSpec& spec,
+                                           const section::OutlineSegment& segment);
 
 /// Returns true if these cutters have one surface, to rounding; false if one is an elbow.
 [[nodiscard]] bool same_surface(const PreparedCutter& a, const PreparedCutter& b, double wide);

@@ -1,4 +1,4 @@
-#include "core/joint/section/piece_events.hpp"
+#include "core/joint/section/outline_events.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,11 +24,11 @@ constexpr std::array kBrackets = {1e-9, 1e-7, 1e-5, 1e-4, 1e-3};  // of a flat's
 
 // ---- arcs: a round target about their own centre
 
-PieceEvents on_arc(const PieceSpec& spec, const section::Piece& arc) {
+OutlineEvents on_arc(const OutlineEventSpec& spec, const section::OutlineSegment& arc) {
   std::vector<PreparedCutter> cutters;
   for (const auto& cutter : spec.cutters) cutters.push_back(seen_from(cutter, arc.origin));
   EventPhases found(cutters, arc.radius);
-  PieceEvents out;
+  OutlineEvents out;
   const double turn = arc.length / arc.radius;
   const auto take = [&](double phi, const auto& add) {
     double from = phi - arc.nu;  // of the whole circle, once
@@ -69,10 +69,10 @@ std::optional<Sides> sides_of(const PreparedElbow& /*elbow*/, const Generator& /
 
 class Flat {
  public:
-  Flat(const PieceSpec& spec, const section::Piece& flat)
+  Flat(const OutlineEventSpec& spec, const section::OutlineSegment& flat)
       : spec_(spec), flat_(flat), way_(flat.length * Vector2d(-flat.normal.y(), flat.normal.x())) {}
 
-  PieceEvents find() {
+  OutlineEvents find() {
     for (std::size_t i = 0; i < spec_.cutters.size(); ++i) add_sides(i);
     std::vector<std::vector<PlaneSheets>> sheets;
     for (const auto& cutter : spec_.cutters) sheets.push_back(plane_sheets(cutter, spec_.wide));
@@ -188,16 +188,16 @@ class Flat {
     }
   }
 
-  const PieceSpec& spec_;
-  const section::Piece& flat_;
+  const OutlineEventSpec& spec_;
+  const section::OutlineSegment& flat_;
   Vector2d way_;
-  PieceEvents out_;
+  OutlineEvents out_;
 };
 
 }  // namespace
 
-PieceEvents piece_events(const PieceSpec& spec, const section::Piece& piece) {
-  return piece.is_arc() ? on_arc(spec, piece) : Flat(spec, piece).find();
+OutlineEvents outline_events(const OutlineEventSpec& spec, const section::OutlineSegment& segment) {
+  return segment.is_arc() ? on_arc(spec, segment) : Flat(spec, segment).find();
 }
 
 std::array<bool, 4> grazed_faces(const PreparedCutter& cutter, const section::Curve& curve) {
