@@ -64,7 +64,7 @@ BENCHMARK(groove_24_sections)->Unit(benchmark::kMicrosecond);
 void mill_position(benchmark::State& state) {
   const auto method = state.range(0) != 0 ? groove::Method::annealing : groove::Method::chebyshev;
   const auto request = mill_spec(90, method);
-  const auto joint = groove::joint_of(request.groove).value();
+  const auto joint = groove::joint_geometry(request.groove).value();
   const groove::Cone cone(request.mill);
   const auto omega = Angle::deg(40);
   const auto near = groove::neighbourhood(joint, omega, request.check).value();

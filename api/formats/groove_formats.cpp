@@ -122,7 +122,7 @@ std::string mill_path_svg(const groove::MillPathSpec&, const groove::MillPath& p
 
 std::string mill_path_gltf(const groove::MillPathSpec& spec, const groove::MillPath& path,
                            const Caption& caption) {
-  const auto joint = groove::joint_of(spec.groove);
+  const auto joint = groove::joint_geometry(spec.groove);
   std::vector<Mesh> meshes{{.name = "before", .positions = {}, .colors = {}, .indices = {}},
                            {.name = "after", .positions = {}, .colors = {}, .indices = {}}};
   double worst = 1e-12;

@@ -210,7 +210,7 @@ void add_found(const FrameSpec& spec, Joined& joined) {
 }
 
 /// Checks that a butt joint joins two ends in line.
-Result<void> check_butt(const joint::CutBy& cut, const Joint& one) {
+Result<void> check_butt(const joint::CutBy& cut, const FrameJoint& one) {
   if (one.how.kind != How::Kind::butt || !one.stated) return {};
   const double off = out_of_line(cut);
   if (off <= joint::kButtMost) return {};

@@ -67,7 +67,7 @@ struct FrameSpec {
 };
 
 /// One joint as both sides are cut for it.
-struct Joint {
+struct FrameJoint {
   std::size_t branch = 0, chord = 0;  // for a mitre or a butt joint in the stated order
   bool other = false;                 // true if the chord is one of the others
   How how;                            // if set-in, with its depth
@@ -122,8 +122,8 @@ struct NotCut {
 };
 
 struct Frame {
-  std::vector<Piece> pieces;  // of each member, in their order
-  std::vector<Joint> joints;  // stated joints in their order, then found joints
+  std::vector<Piece> pieces;       // of each member, in their order
+  std::vector<FrameJoint> joints;  // stated joints in their order, then found joints
   std::vector<NotCut> not_cut;
   std::vector<Warning> warnings;  // of ends, and of members that overlap
 };

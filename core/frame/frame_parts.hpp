@@ -20,7 +20,7 @@ struct OtherAt {
 struct Joined {
   joint::NodeSpec node;
   joint::Nodes nodes;
-  std::vector<Joint> joints;
+  std::vector<FrameJoint> joints;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t>
       of_members;                            // the earlier member first
   std::vector<std::vector<OtherAt>> others;  // of each end

@@ -18,7 +18,7 @@ Angle table_phi(double turn) {
   return Angle::rad(kTwoPi * (from_x < 0.0 ? from_x + 1.0 : from_x));
 }
 
-GrooveSection report(const Joint& joint, const Section& section) {
+GrooveSection report(const JointGeometry& joint, const Section& section) {
   GrooveSection out;
   const Toe& p = section.toe;
   out.omega = section.omega;
@@ -38,7 +38,7 @@ GrooveSection report(const Joint& joint, const Section& section) {
 }  // namespace
 
 Result<Groove> groove(const GrooveSpec& spec) {
-  TRY(const auto joint, joint_of(spec));
+  TRY(const auto joint, joint_geometry(spec));
   const double fixed_height =
       spec.compare ? joint.groove_width * elementary::tan(spec.compare->bevel.rad()) : 0.0;
   TRY(auto whole, survey(joint, fixed_height));
@@ -64,7 +64,7 @@ Result<Groove> groove(const GrooveSpec& spec) {
 }
 
 Result<GrooveSection> section_at(const GrooveSpec& spec, Angle omega) {
-  TRY(const auto joint, joint_of(spec));
+  TRY(const auto joint, joint_geometry(spec));
   const auto found = section(joint, omega);
   if (!found) return fail({.code = found.error(), .member = "branch/wall"});
   auto out = report(joint, *found);

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/groove/joint.hpp"
+#include "core/groove/joint_geometry.hpp"
 #include "core/groove/section.hpp"
 #include "core/groove/surface.hpp"
 
@@ -63,7 +63,7 @@ struct Groove {
 /// Computes the equal-area groove of a joint. Branch frame: z along the branch axis away from the
 /// chord, x along the common perpendicular; omega from +y towards -x.
 ///
-/// Errors    of `joint_of` and `survey`.
+/// Errors    of `joint_geometry` and `survey`.
 /// Accuracy  sections 1e-12 relative; volume and length as in `survey`.
 /// Cost      1 ms and 1 us per section.
 /// Source    docs/theory/grooves-and-milling.md, sections 1-5.
@@ -71,7 +71,7 @@ struct Groove {
 
 /// Computes one section anywhere around the joint, in the form of `groove`.
 ///
-/// Errors  of `joint_of` and `section`.
+/// Errors  of `joint_geometry` and `section`.
 [[nodiscard]] Result<GrooveSection> section_at(const GrooveSpec& spec, Angle omega);
 
 /// Verifies an answer by formulas independent of those that computed it.

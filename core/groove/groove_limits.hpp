@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/groove/joint.hpp"
+#include "core/groove/joint_geometry.hpp"
 
 namespace tubecut::groove {
 
@@ -22,7 +22,7 @@ struct GrooveLimits {
 };
 
 /// z reaches (R + r) / sin(alpha); 1e-13 of it is about 450 roundings; worst seen 0.5 % of it.
-[[nodiscard]] constexpr GrooveLimits groove_limits(const Joint& joint) {
+[[nodiscard]] constexpr GrooveLimits groove_limits(const JointGeometry& joint) {
   const double size = joint.chord_radius + joint.branch_radius;
   const double reach = size / joint.sin_a;
   return {.on_chord = 1e-13 * reach,

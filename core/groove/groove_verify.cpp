@@ -149,7 +149,7 @@ double curve_deviation(const GrooveSpec& spec, const GrooveSection& s) {
 }
 
 /// Computes the twist from normals by central differences of points in space.
-double twist_by_points(const Joint& joint, Angle omega, Angle step) {
+double twist_by_points(const JointGeometry& joint, Angle omega, Angle step) {
   const auto before = section(joint, omega - step), after = section(joint, omega + step);
   if (!before || !after) return std::numeric_limits<double>::quiet_NaN();
   const auto normal = [&](double v) -> Vector3d {
@@ -169,14 +169,14 @@ double twist_by_points(const Joint& joint, Angle omega, Angle step) {
 }
 
 /// Uses two steps of the differences, so that the error's first term cancels.
-double twist_by_points(const Joint& joint, Angle omega) {
+double twist_by_points(const JointGeometry& joint, Angle omega) {
   const double gap = 1.0 - (joint.root_radius + std::abs(joint.eccentricity)) / joint.chord_radius;
   const double step = std::clamp(3e-4 * std::sqrt(gap), 1e-8, 1e-4);
   const double wide = twist_by_points(joint, omega, Angle::rad(2.0 * step));
   return (4.0 * twist_by_points(joint, omega, Angle::rad(step)) - wide) / 3.0;
 }
 
-void add_section(const GrooveSpec& spec, const Groove& groove, const Joint& joint,
+void add_section(const GrooveSpec& spec, const Groove& groove, const JointGeometry& joint,
                  std::size_t index, SectionDeviations& worst) {
   const GrooveSection& s = groove.sections[index];
   const ChordAxis chord{spec};
@@ -209,7 +209,8 @@ struct RoundDeviations {
 };
 
 /// Checks the figures of a whole revolution, between the sections of the survey.
-RoundDeviations round_figures(const GrooveSpec& spec, const Groove& groove, const Joint& joint) {
+RoundDeviations round_figures(const GrooveSpec& spec, const Groove& groove,
+                              const JointGeometry& joint) {
   RoundDeviations out;
   const double step = kTwoPi / kSurveySections;
   std::optional<Vector3d> last;
@@ -233,7 +234,7 @@ RoundDeviations round_figures(const GrooveSpec& spec, const Groove& groove, cons
 }
 
 /// Returns the filler area at which the height vanishes in one section.
-double flat_area(const GrooveSpec& spec, const Joint& joint, const Section& at) {
+double flat_area(const GrooveSpec& spec, const JointGeometry& joint, const Section& at) {
   const Vector2d p1 = {at.toe.x1, at.toe.y1}, p2 = {at.toe.x2, at.toe.y2};
   const RegionIntegral integral{spec, at.omega};
   const double flat = integral.over(p1, p2, {joint.branch_radius, p1.y()}).area;
@@ -244,7 +245,7 @@ struct Extremes {
   double lowest, highest, least_area;
 };
 
-Extremes extremes_of_round(const GrooveSpec& spec, const Joint& joint) {
+Extremes extremes_of_round(const GrooveSpec& spec, const JointGeometry& joint) {
   const auto of = [&joint](const auto& figure) {
     return largest_of_round([&](Angle omega) {
       const auto found = section(joint, omega);
@@ -259,7 +260,7 @@ Extremes extremes_of_round(const GrooveSpec& spec, const Joint& joint) {
 }  // namespace
 
 std::vector<Check> verify(const GrooveSpec& spec, const Groove& groove) {
-  const auto joint = joint_of(spec);
+  const auto joint = joint_geometry(spec);
   if (!joint) return {{"joint", 1.0, 0.0, ""}};
   SectionDeviations worst;
   for (std::size_t i = 0; i < groove.sections.size() && !stopped(); ++i)

@@ -54,7 +54,7 @@ std::vector<Issue> shape_issues(const Mill& mill, const Setup& setup) {
   return issues;
 }
 
-std::vector<Issue> fit_issues(const Joint& joint, const Survey& survey, const Mill& mill,
+std::vector<Issue> fit_issues(const JointGeometry& joint, const Survey& survey, const Mill& mill,
                               const Setup& setup) {
   std::vector<Issue> issues;
   const Cone cone{mill};
@@ -125,7 +125,7 @@ FlankFoot Cone::foot(const ToolPose& pose, const Eigen::Vector3d& p) const {
   return out;
 }
 
-ToolPose initial_pose(const Joint& joint, const Section& section, const Mill& mill,
+ToolPose initial_pose(const JointGeometry& joint, const Section& section, const Mill& mill,
                       const Setup& setup) {
   const Cone cone{mill};
   const double ruling = elementary::hypot(joint.groove_width, section.height);
@@ -166,7 +166,7 @@ ToolPose tool_pose(const AxisPosition& axes, const Setup& setup) {
   return {Eigen::Vector2d(axes.x, sg * (axes.z - setup.z_zero)) - setup.pivot_length * axis, axis};
 }
 
-Result<void> check_tool(const Joint& joint, const Survey& survey, const Mill& mill,
+Result<void> check_tool(const JointGeometry& joint, const Survey& survey, const Mill& mill,
                         const Setup& setup) {
   TRY(no_issues(number_issues(mill, setup)));
   TRY(no_issues(shape_issues(mill, setup)));

@@ -66,8 +66,8 @@ struct Increment {
 };
 
 /// Returns the pose with the whole generatrix on the ruling of the section. Source 6.2.
-[[nodiscard]] ToolPose initial_pose(const Joint& joint, const Section& section, const Mill& mill,
-                                    const Setup& setup);
+[[nodiscard]] ToolPose initial_pose(const JointGeometry& joint, const Section& section,
+                                    const Mill& mill, const Setup& setup);
 
 /// Returns the pose after an increment. Source 8.1.
 [[nodiscard]] ToolPose moved(const ToolPose& pose, const Setup& setup, Hold hold, Increment by);
@@ -134,7 +134,7 @@ struct Cone {
 ///
 /// Errors  not_finite, out_of_range, tool, setup, tool_short, root_collision; `member` from
 ///         "mill/..." and "setup/...".
-[[nodiscard]] Result<void> check_tool(const Joint& joint, const Survey& survey, const Mill& mill,
-                                      const Setup& setup);
+[[nodiscard]] Result<void> check_tool(const JointGeometry& joint, const Survey& survey,
+                                      const Mill& mill, const Setup& setup);
 
 }  // namespace tubecut::groove

@@ -14,7 +14,7 @@ namespace tubecut::groove {
 /// from omega = 0, with its fraction.
 struct Shop {
   const MillPathSpec& spec;
-  Joint joint;
+  JointGeometry joint;
   Cone cone;
 
   [[nodiscard]] double omega(double station) const { return kTwoPi * station / spec.positions; }

@@ -151,7 +151,7 @@ int most_positions(const GapCheck& check, Method method) {
 }
 
 Result<MillPath> mill_path(const MillPathSpec& spec) {
-  TRY(const auto joint, under("groove", joint_of(spec.groove)));
+  TRY(const auto joint, under("groove", joint_geometry(spec.groove)));
   TRY(no_issues(check_issues(spec)));
   TRY(auto whole, under("groove", survey(joint, 0.0)));
   TRY(check_tool(joint, whole, spec.mill, spec.setup));

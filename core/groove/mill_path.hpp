@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/groove/joint.hpp"
+#include "core/groove/joint_geometry.hpp"
 #include "core/groove/mill.hpp"
 #include "core/groove/mill_position.hpp"
 #include "core/groove/optimise.hpp"

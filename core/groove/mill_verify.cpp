@@ -27,7 +27,7 @@ struct MaxResidual {
 
 class Verifier {
  public:
-  Verifier(const MillPathSpec& spec, const MillPath& path, const Joint& joint)
+  Verifier(const MillPathSpec& spec, const MillPath& path, const JointGeometry& joint)
       : spec_(spec), path_(path), joint_(joint), machine_(spec) {}
 
   std::vector<Check> run() {
@@ -317,7 +317,7 @@ class Verifier {
 
   const MillPathSpec& spec_;
   const MillPath& path_;
-  const Joint& joint_;
+  const JointGeometry& joint_;
   Machine machine_;
   std::vector<Block> blocks_;
   std::vector<Tool> tools_;  // at the blocks, in the workpiece's frame
@@ -327,7 +327,7 @@ class Verifier {
 }  // namespace
 
 std::vector<Check> verify(const MillPathSpec& spec, const MillPath& path) {
-  const auto joint = joint_of(spec.groove);
+  const auto joint = joint_geometry(spec.groove);
   if (!joint || path.positions.empty()) return {{"joint", 1.0, 0.0, ""}};
   return Verifier{spec, path, *joint}.run();
 }

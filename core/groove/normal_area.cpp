@@ -35,7 +35,7 @@ constexpr std::array kSides{Side::groove, Side::face, Side::chord};  // in circu
 
 /// Returns a point of a side, in its axial section: at the fraction `share` along it, in circular
 /// order.
-Vector2d on_side(const Joint& joint, const Section& at, Side side, double share) {
+Vector2d on_side(const JointGeometry& joint, const Section& at, Side side, double share) {
   const Vector2d p1{at.toe.x1, at.toe.y1}, p2{at.toe.x2, at.toe.y2};
   const Vector2d p3{joint.branch_radius, at.y3};
   if (side == Side::groove) return p1 + share * (p3 - p1);
@@ -49,7 +49,7 @@ Vector2d on_side(const Joint& joint, const Section& at, Side side, double share)
 /// The plane normal to curve 3 at one section.
 class NormalPlane {
  public:
-  NormalPlane(const Joint& joint, const Section& at) : joint_(joint), at_(at) {}
+  NormalPlane(const JointGeometry& joint, const Section& at) : joint_(joint), at_(at) {}
 
   /// Returns the intersection with the point of a side that all sections have, in coordinates of
   /// the plane.
@@ -85,7 +85,7 @@ class NormalPlane {
     return {p.x() * cos - at_.toe.x1, (joint_.root_radius * up - at_.z3_d * along) / length};
   }
 
-  const Joint& joint_;
+  const JointGeometry& joint_;
   const Section& at_;
 };
 
@@ -122,7 +122,7 @@ Furthest nowhere(Angle omega) {
   return {std::numeric_limits<double>::infinity(), omega, std::numeric_limits<double>::quiet_NaN()};
 }
 
-Result<void> refuse(const Joint& joint, const Furthest& worst) {
+Result<void> refuse(const JointGeometry& joint, const Furthest& worst) {
   const bool found = std::isfinite(worst.area);
   return fail(
       {.code = ErrorCode::normal_area,
@@ -136,7 +136,7 @@ Result<void> refuse(const Joint& joint, const Furthest& worst) {
 
 /// Sets the joint's area to that of its normal section at the kept angle, and keeps the axial area
 /// there. Returns false when there is no such section.
-bool keep(const KeptArea& kept, Joint& joint, std::vector<double>& factors) {
+bool keep(const KeptArea& kept, JointGeometry& joint, std::vector<double>& factors) {
   const double turn = kept.at.rad() / kTwoPi * kKnots;
   const auto scale = [&](double by) {
     for (double& factor : factors) factor *= by;
@@ -152,7 +152,7 @@ bool keep(const KeptArea& kept, Joint& joint, std::vector<double>& factors) {
 
 /// Runs one round: computes the areas from the factors. Returns false when a section does not
 /// exist.
-bool areas_of(const Joint& joint, std::vector<double>& out, Furthest& none) {
+bool areas_of(const JointGeometry& joint, std::vector<double>& out, Furthest& none) {
   for (int k = 0; k < kKnots && !stopped(); ++k) {
     const auto area = normal_area(joint, station(k, kKnots));
     if (!area || !(*area > 0.0)) {
@@ -166,7 +166,7 @@ bool areas_of(const Joint& joint, std::vector<double>& out, Furthest& none) {
 
 }  // namespace
 
-std::optional<double> normal_area(const Joint& joint, Angle omega) {
+std::optional<double> normal_area(const JointGeometry& joint, Angle omega) {
   const auto at = section(joint, omega);
   if (!at) return std::nullopt;
   const NormalPlane plane(joint, *at);
@@ -175,7 +175,7 @@ std::optional<double> normal_area(const Joint& joint, Angle omega) {
   return (4.0 * *fine - *coarse) / 3.0;
 }
 
-double normal_area_off(const Joint& joint, double area, int stations) {
+double normal_area_off(const JointGeometry& joint, double area, int stations) {
   double worst = 0.0;
   for (int k = 0; k < stations && !stopped(); ++k) {
     const auto found = normal_area(joint, station(k, stations));
@@ -185,7 +185,7 @@ double normal_area_off(const Joint& joint, double area, int stations) {
   return worst;
 }
 
-Result<void> equal_normal_areas(Joint& joint, const std::optional<KeptArea>& kept) {
+Result<void> equal_normal_areas(JointGeometry& joint, const std::optional<KeptArea>& kept) {
   std::vector<double> factors, found(kKnots);
   for (int k = 0; k < kKnots; ++k) {
     const auto dir = direction(station(k, kKnots));
@@ -198,7 +198,7 @@ Result<void> equal_normal_areas(Joint& joint, const std::optional<KeptArea>& kep
   double best = std::numeric_limits<double>::infinity();
   for (int since = 0; best > kEqual && since < kPatience; ++since) {
     if (stopped()) return fail({.code = ErrorCode::cancelled});
-    Joint tried = joint;
+    JointGeometry tried = joint;
     tried.area_factor = PeriodicSpline(factors);
     if (kept && !keep(*kept, tried, factors)) return refuse(joint, nowhere(kept->at));
     if (!areas_of(tried, found, worst)) break;

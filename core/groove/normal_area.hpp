@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/base/error.hpp"
-#include "core/groove/joint.hpp"
+#include "core/groove/joint_geometry.hpp"
 
 namespace tubecut::groove {
 
@@ -13,7 +13,7 @@ namespace tubecut::groove {
 ///
 /// Accuracy  1e-5 of itself.
 /// Cost      about 0.2 ms.
-[[nodiscard]] std::optional<double> normal_area(const Joint& joint, Angle omega);
+[[nodiscard]] std::optional<double> normal_area(const JointGeometry& joint, Angle omega);
 
 /// The required axial area of one section.
 struct KeptArea {
@@ -29,12 +29,13 @@ struct KeptArea {
 ///           steep and the groove high, the planes cross one another.
 /// Cost      about 10 ms a round, three to eight of them.
 /// Source    docs/theory/grooves-and-milling.md, section 1.
-[[nodiscard]] Result<void> equal_normal_areas(Joint& joint, const std::optional<KeptArea>& kept);
+[[nodiscard]] Result<void> equal_normal_areas(JointGeometry& joint,
+                                              const std::optional<KeptArea>& kept);
 
 inline constexpr double kNormalAreaLimit = 1e-3;  // of the area
 
 /// Returns the largest relative error of a normal section's area against `area`, over this many
 /// stations.
-[[nodiscard]] double normal_area_off(const Joint& joint, double area, int stations);
+[[nodiscard]] double normal_area_off(const JointGeometry& joint, double area, int stations);
 
 }  // namespace tubecut::groove

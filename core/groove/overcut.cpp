@@ -14,21 +14,21 @@ namespace {
 
 using Neighbour = Neighbourhood::Neighbour;
 
-double radius_at(const Joint& joint, double v) {
+double radius_at(const JointGeometry& joint, double v) {
   return joint.root_radius + v * joint.groove_width;
 }
 
-Eigen::Vector3d point_on(const Joint& joint, const Neighbour& ruling, double v) {
+Eigen::Vector3d point_on(const JointGeometry& joint, const Neighbour& ruling, double v) {
   const double s = radius_at(joint, v);
   return {s * ruling.cos, s * ruling.sin, ruling.z3 + v * ruling.height};
 }
 
-Eigen::Vector3d turn_of(const Joint& joint, const Neighbour& ruling, double v) {
+Eigen::Vector3d turn_of(const JointGeometry& joint, const Neighbour& ruling, double v) {
   const double s = radius_at(joint, v);
   return {-s * ruling.sin, s * ruling.cos, ruling.z3_d + v * ruling.height_d};
 }
 
-tl::expected<Neighbour, ErrorCode> neighbour(const Joint& joint, Angle omega, double delta,
+tl::expected<Neighbour, ErrorCode> neighbour(const JointGeometry& joint, Angle omega, double delta,
                                              std::optional<double> near) {
   TRY(const auto found, section(joint, omega + Angle::rad(delta), near));
   const auto [s, c] = elementary::sincos(delta);
@@ -145,7 +145,7 @@ int ruling_reach(const GapCheck& check) {
   return int(std::floor(check.window.rad() / check.pitch.rad() * (1.0 + 1e-12)));
 }
 
-tl::expected<Neighbourhood, ErrorCode> neighbourhood(const Joint& joint, Angle omega,
+tl::expected<Neighbourhood, ErrorCode> neighbourhood(const JointGeometry& joint, Angle omega,
                                                      const GapCheck& check) {
   Neighbourhood out{&joint, omega, check.points, {}, {}};
   const int reach = ruling_reach(check);

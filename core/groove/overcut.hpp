@@ -29,7 +29,7 @@ struct Neighbourhood {
     double z3 = 0.0, height = 0.0, z3_d = 0.0, height_d = 0.0;
     double D = 0.0, D_d = 0.0;  // of the toe, and by omega
   };
-  const Joint* joint = nullptr;
+  const JointGeometry* joint = nullptr;
   Angle omega;
   int points = 0;
   std::vector<Neighbour> rulings;        // -window .. window
@@ -37,7 +37,8 @@ struct Neighbourhood {
 };
 
 /// Errors  those of `section`; cancelled.
-[[nodiscard]] tl::expected<Neighbourhood, ErrorCode> neighbourhood(const Joint& joint, Angle omega,
+[[nodiscard]] tl::expected<Neighbourhood, ErrorCode> neighbourhood(const JointGeometry& joint,
+                                                                   Angle omega,
                                                                    const GapCheck& check);
 
 /// The source's figures: the ruling that contains the deepest point, read at its points. They omit

@@ -45,7 +45,7 @@ Eigen::Vector3d in_half_plane(const Eigen::Vector3d& p, double delta) {
   return {radial * cos, radial * sin, p.z()};
 }
 
-Result<Probed> probed(const Joint& joint, const MillPathSpec& spec, const MillPath& path,
+Result<Probed> probed(const JointGeometry& joint, const MillPathSpec& spec, const MillPath& path,
                       const ProbePoint& asked) {
   const Cone cone{spec.mill};
   const Angle omega = Angle::rad(math::whole_turn(asked.omega.rad()));
@@ -80,7 +80,7 @@ Deepest deepest(const MillPath& path, ContactLine MillPosition::*line, Deeper de
   return out;
 }
 
-Result<DeepestPlaces> places(const Joint& joint, const MillPath& path,
+Result<DeepestPlaces> places(const JointGeometry& joint, const MillPath& path,
                              ContactLine MillPosition::*line) {
   DeepestPlaces out{.over = deepest(path, line, std::less<>{}),
                     .under = deepest(path, line, std::greater<>{})};
@@ -97,7 +97,7 @@ Result<DeepestPlaces> places(const Joint& joint, const MillPath& path,
 
 Result<Probe> probe(const MillPathSpec& spec, const MillPath& path,
                     const std::vector<ProbePoint>& asked) {
-  TRY(const auto joint, joint_of(spec.groove));
+  TRY(const auto joint, joint_geometry(spec.groove));
   Probe out;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if (stopped()) return fail({.code = ErrorCode::cancelled});

@@ -13,7 +13,7 @@ namespace {
 
 /// The chord in one section: y over x and its derivatives.
 struct ChordLine {
-  const Joint& joint;
+  const JointGeometry& joint;
   Direction dir;
 
   [[nodiscard]] double t(double x) const { return x * dir.sin + joint.eccentricity; }
@@ -90,7 +90,7 @@ double bulge(double theta) {
   return theta * s / 6.0 * sum;
 }
 
-void measure_bow(const Joint& joint, Direction dir, Toe& toe) {
+void measure_bow(const JointGeometry& joint, Direction dir, Toe& toe) {
   if (dir.sin == 0.0) return;
   const double R = joint.chord_radius;
   const double dt = toe.D * dir.sin;
@@ -110,7 +110,7 @@ double station(const PeriodicSpline& factors, Direction dir) {
   return elementary::atan2(dir.sin, dir.cos) / kTwoPi * static_cast<double>(factors.count());
 }
 
-AreaAt area_at(const Joint& joint, Direction dir) {
+AreaAt area_at(const JointGeometry& joint, Direction dir) {
   if (!joint.area_factor) return {joint.area, 0.0};
   const auto& factors = *joint.area_factor;
   const double at = station(factors, dir), per_turn = static_cast<double>(factors.count());
@@ -118,7 +118,7 @@ AreaAt area_at(const Joint& joint, Direction dir) {
 }
 
 /// Computes d S_C / d omega from D'.
-double bow_slope(const Joint& joint, Direction dir, const Toe& toe, double D_d) {
+double bow_slope(const JointGeometry& joint, Direction dir, const Toe& toe, double D_d) {
   if (dir.sin == 0.0) return 0.0;
   const double R = joint.chord_radius;
   const double half = toe.half_sin;
@@ -136,7 +136,8 @@ Direction direction(Angle omega) {
   return {s, c};
 }
 
-tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir, std::optional<double> near) {
+tl::expected<Toe, ErrorCode> toe(const JointGeometry& joint, Direction dir,
+                                 std::optional<double> near) {
   const ChordLine chord{joint, dir};
   Toe toe;
   toe.x1 = joint.root_radius;
@@ -154,27 +155,27 @@ tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir, std::optiona
   return toe;
 }
 
-std::optional<double> chord_height(const Joint& joint, Direction dir, double x) {
+std::optional<double> chord_height(const JointGeometry& joint, Direction dir, double x) {
   const ChordLine chord{joint, dir};
   const double t = chord.t(x);
   if (!(std::abs(t) <= joint.chord_radius)) return std::nullopt;
   return chord.y(x, chord.q(t));
 }
 
-double axial_factor(const Joint& joint, Direction dir) {
+double axial_factor(const JointGeometry& joint, Direction dir) {
   return joint.area_factor ? (*joint.area_factor)(station(*joint.area_factor, dir)) : 1.0;
 }
 
-double first_order_factor(const Joint& joint, Direction dir, const Toe& toe) {
+double first_order_factor(const JointGeometry& joint, Direction dir, const Toe& toe) {
   const double z3_d = ChordLine{joint, dir}.turn(toe.x1, toe.t1, toe.q1);
   return std::sqrt(1.0 + z3_d * z3_d / (joint.root_radius * joint.root_radius));
 }
 
-double filler_area(const Joint& joint, const Toe& toe, double height) {
+double filler_area(const JointGeometry& joint, const Toe& toe, double height) {
   return 0.5 * (height * toe.D - joint.groove_width * toe.dy) - toe.bow;
 }
 
-tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega,
+tl::expected<Section, ErrorCode> section(const JointGeometry& joint, Angle omega,
                                          std::optional<double> near) {
   Section out{.omega = omega, .dir = direction(omega)};
   TRY(out.toe, toe(joint, out.dir, near));
@@ -193,7 +194,7 @@ tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega,
   return out;
 }
 
-Areas areas(const Joint& joint, const Section& section) {
+Areas areas(const JointGeometry& joint, const Section& section) {
   const Toe& p = section.toe;
   const double H = joint.groove_width, h = section.height;
   Areas out;

@@ -5,7 +5,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/error_codes.hpp"
-#include "core/groove/joint.hpp"
+#include "core/groove/joint_geometry.hpp"
 
 namespace tubecut::groove {
 
@@ -59,7 +59,7 @@ struct Section {
 /// Cost      about 4 Newton steps, 2 from a neighbour's guess, never more than 120 (50 Newton, then
 ///           bisection).
 /// Source    docs/theory/grooves-and-milling.md, 4.1 and 4.2.
-[[nodiscard]] tl::expected<Toe, ErrorCode> toe(const Joint& joint, Direction dir,
+[[nodiscard]] tl::expected<Toe, ErrorCode> toe(const JointGeometry& joint, Direction dir,
                                                std::optional<double> near = {});
 
 /// Computes the whole section: closed-form height and derivatives. `survey` checks the signs that
@@ -68,24 +68,25 @@ struct Section {
 /// Errors    as `toe`.
 /// Accuracy  1e-12 relative; worst seen 1.6e-15 against the golden file's 34 digits.
 /// Source    docs/theory/grooves-and-milling.md, 4.3 and 4.6.
-[[nodiscard]] tl::expected<Section, ErrorCode> section(const Joint& joint, Angle omega,
+[[nodiscard]] tl::expected<Section, ErrorCode> section(const JointGeometry& joint, Angle omega,
                                                        std::optional<double> near = {});
 
 /// Computes the chord's outer surface in the section in direction `dir`, over x from the branch
 /// axis; empty beyond its silhouette. mm
-[[nodiscard]] std::optional<double> chord_height(const Joint& joint, Direction dir, double x);
+[[nodiscard]] std::optional<double> chord_height(const JointGeometry& joint, Direction dir,
+                                                 double x);
 
 /// Computes the filler area of the axial section of a groove of this height there.
-[[nodiscard]] double filler_area(const Joint& joint, const Toe& toe, double height);
+[[nodiscard]] double filler_area(const JointGeometry& joint, const Toe& toe, double height);
 
-[[nodiscard]] Areas areas(const Joint& joint, const Section& section);
+[[nodiscard]] Areas areas(const JointGeometry& joint, const Section& section);
 
 /// Returns the factor from the joint's area to that of the axial section: 1 unless its areas are
 /// equal in normal sections.
-[[nodiscard]] double axial_factor(const Joint& joint, Direction dir);
+[[nodiscard]] double axial_factor(const JointGeometry& joint, Direction dir);
 
 /// Returns 1 / cos psi: the axial section's area over the normal one's, to first order in the
 /// seam's curvature.
-[[nodiscard]] double first_order_factor(const Joint& joint, Direction dir, const Toe& toe);
+[[nodiscard]] double first_order_factor(const JointGeometry& joint, Direction dir, const Toe& toe);
 
 }  // namespace tubecut::groove

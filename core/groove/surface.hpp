@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "core/groove/joint.hpp"
+#include "core/groove/joint_geometry.hpp"
 #include "core/groove/section.hpp"
 
 namespace tubecut::groove {
@@ -23,20 +23,21 @@ struct Ruling {
 };
 
 /// Source  docs/theory/grooves-and-milling.md, (1)-(4).
-[[nodiscard]] CurvePoints curve_points(const Joint& joint, const Section& section);
+[[nodiscard]] CurvePoints curve_points(const JointGeometry& joint, const Section& section);
 
 /// Computes a point of the groove surface (12): v = 0 on curve 3, v = 1 on curve 4.
-[[nodiscard]] Eigen::Vector3d surface_point(const Joint& joint, const Section& section, double v);
+[[nodiscard]] Eigen::Vector3d surface_point(const JointGeometry& joint, const Section& section,
+                                            double v);
 
 /// Source  docs/theory/grooves-and-milling.md, 5.
-[[nodiscard]] Ruling ruling(const Joint& joint, const Section& section);
+[[nodiscard]] Ruling ruling(const JointGeometry& joint, const Section& section);
 
 /// Computes the filler between this section and its neighbour per radian of omega: the first moment
 /// of the filler area about the branch axis (Guldin), mm^3/rad, for a groove edge `height` above
 /// P1.
-[[nodiscard]] double volume_rate(const Joint& joint, const Section& section, double height);
+[[nodiscard]] double volume_rate(const JointGeometry& joint, const Section& section, double height);
 
 /// Computes the angle of the groove line to the branch axis.
-[[nodiscard]] Angle groove_angle(const Joint& joint, const Section& section);
+[[nodiscard]] Angle groove_angle(const JointGeometry& joint, const Section& section);
 
 }  // namespace tubecut::groove

@@ -26,7 +26,7 @@ struct Seen {
   }
 };
 
-std::optional<ErrorCode> fault(const Joint& joint, const Section& section) {
+std::optional<ErrorCode> fault(const JointGeometry& joint, const Section& section) {
   const Toe& p = section.toe;
   if (!(section.height > 0.0)) return ErrorCode::p3_below_p1;
   if (!(section.height > joint.groove_width * p.slope1)) return ErrorCode::groove_in_chord;
@@ -35,7 +35,7 @@ std::optional<ErrorCode> fault(const Joint& joint, const Section& section) {
   return std::nullopt;
 }
 
-bool in_bore(const Joint& joint, const Section& section, double s) {
+bool in_bore(const JointGeometry& joint, const Section& section, double s) {
   const double t = s * section.dir.sin + joint.eccentricity;
   const double height =
       (section.toe.y1 - joint.root_height) * joint.sin_a - s * section.dir.cos * joint.cos_a;
@@ -44,7 +44,8 @@ bool in_bore(const Joint& joint, const Section& section, double s) {
 
 class Surveyor {
  public:
-  Surveyor(const Joint& joint, double fixed_height) : joint_(joint), fixed_height_(fixed_height) {
+  Surveyor(const JointGeometry& joint, double fixed_height)
+      : joint_(joint), fixed_height_(fixed_height) {
     sums_.height_min = sums_.angle_min = std::numeric_limits<double>::infinity();
   }
 
@@ -128,7 +129,7 @@ class Surveyor {
     return out;
   }
 
-  const Joint& joint_;
+  const JointGeometry& joint_;
   double fixed_height_;
   Sums sums_;
   std::optional<Bad> bad_;
@@ -137,7 +138,7 @@ class Surveyor {
 
 }  // namespace
 
-Result<Survey> survey(const Joint& joint, double fixed_height) {
+Result<Survey> survey(const JointGeometry& joint, double fixed_height) {
   Surveyor surveyor{joint, fixed_height};
   for (int i = 0; i < kSurveySections; ++i) {
     if (stopped()) return fail({.code = ErrorCode::cancelled});

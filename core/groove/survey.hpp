@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/groove/joint.hpp"
+#include "core/groove/joint_geometry.hpp"
 
 namespace tubecut::groove {
 
@@ -30,6 +30,6 @@ struct Survey {
 ///           root cylinder stays 0.1 % of R inside the chord; worst seen 8e-14 there.
 /// Cost      720 sections, about 1 ms.
 /// Source    docs/theory/grooves-and-milling.md, 4.4 and 9.
-[[nodiscard]] Result<Survey> survey(const Joint& joint, double fixed_height);
+[[nodiscard]] Result<Survey> survey(const JointGeometry& joint, double fixed_height);
 
 }  // namespace tubecut::groove

@@ -35,7 +35,7 @@ struct Bounded {
 /// Smallest distances of all points, computed only if their bounds can change the result.
 class Sweep {
  public:
-  Sweep(const Joint& joint, const SweptPoints& points, ToolMotion motion)
+  Sweep(const JointGeometry& joint, const SweptPoints& points, ToolMotion motion)
       : joint_(joint), points_(points), motion_(std::move(motion)) {}
 
   tl::expected<Swept, ErrorCode> run() {
@@ -122,7 +122,7 @@ class Sweep {
     return out;
   }
 
-  const Joint& joint_;
+  const JointGeometry& joint_;
   const SweptPoints& points_;
   ToolMotion motion_;
   std::vector<Section> sections_;
@@ -145,9 +145,9 @@ ToolPose pose_of(const Block& block, const Setup& setup) {
   return tool_pose({.c = {}, .x = block.x, .z = block.z, .b = Angle::rad(block.b)}, setup);
 }
 
-tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone, const Setup& setup,
-                                     std::span<const Block> blocks, Between between,
-                                     const SweptPoints& points) {
+tl::expected<Swept, ErrorCode> swept(const JointGeometry& joint, const Cone& cone,
+                                     const Setup& setup, std::span<const Block> blocks,
+                                     Between between, const SweptPoints& points) {
   return Sweep{joint, points, ToolMotion{cone, setup, blocks, between}}.run();
 }
 

@@ -59,7 +59,7 @@ struct SweptPoints {
 ///           between the blocks of each, and a search for the few that the bounds do not decide:
 ///           5-15 ms.
 /// Source    docs/theory/grooves-and-milling.md, 7 and 8.4.
-[[nodiscard]] tl::expected<Swept, ErrorCode> swept(const Joint& joint, const Cone& cone,
+[[nodiscard]] tl::expected<Swept, ErrorCode> swept(const JointGeometry& joint, const Cone& cone,
                                                    const Setup& setup,
                                                    std::span<const Block> blocks, Between between,
                                                    const SweptPoints& points);

@@ -131,7 +131,8 @@ std::vector<Seam> seams_of(const FrameJob& frame, const MadeParts& made) {
   return seams;
 }
 
-void write_joint(const FrameJob& frame, const frame::Joint& joint, const Seam& seam, Writer& o) {
+void write_joint(const FrameJob& frame, const frame::FrameJoint& joint, const Seam& seam,
+                 Writer& o) {
   const auto& chord =
       joint.other ? frame.spec.others[joint.chord].name : frame.spec.members[joint.chord].name;
   o.field("branch", frame.spec.members[joint.branch].name);

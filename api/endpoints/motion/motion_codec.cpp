@@ -162,7 +162,7 @@ Result<motion::AxisColumns> columns_of(const groove::MillPathSpec& spec,
                                        const groove::MillPath& path,
                                        const motion::Machine& machine) {
   motion::AxisColumns out{.tip_radius = 0.0, .closed = true};
-  TRY(const auto joint, groove::joint_of(spec.groove));
+  TRY(const auto joint, groove::joint_geometry(spec.groove));
   out.tip_radius = joint.root_radius;
   std::vector<double> c, x, z, b;
   for (std::size_t i = 0; i <= path.positions.size(); ++i) {

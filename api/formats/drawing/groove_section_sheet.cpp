@@ -30,7 +30,7 @@ DrawingPoint point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
 /// Returns the position of a point of a curve in its section.
 DrawingPoint in_section(const Eigen::Vector3d& p) { return {std::hypot(p.x(), p.y()), p.z()}; }
 
-Outlines outlines(const groove::Joint& joint, const GrooveSection& s) {
+Outlines outlines(const groove::JointGeometry& joint, const GrooveSection& s) {
   const auto c1 = in_section(s.curves.c1), c2 = in_section(s.curves.c2);
   const auto p1 = point(s.p1), p2 = point(s.p2), p3 = point(s.p3);
   const double margin = 0.6 * joint.weld_width;
@@ -129,7 +129,7 @@ void name_points(Canvas& canvas, const GrooveSection& s, const Placing& at) {
   name(s.p3, 1.0, 1.0, "P3: " + number(s.p3.x(), Unit::mm) + ", " + mm(s.p3.y()));
 }
 
-Canvas one_section(const groove::GrooveSpec& spec, const groove::Joint& joint,
+Canvas one_section(const groove::GrooveSpec& spec, const groove::JointGeometry& joint,
                    const GrooveSection& s, const Caption& caption) {
   constexpr double kNames = 90.0, kAbove = 30.0;  // mm of paper, next to and above the section
   const std::string title = "Section of the groove at " + name_of(s);
@@ -173,7 +173,7 @@ std::vector<const GrooveSection*> spread(const groove::Groove& g) {
   return out;
 }
 
-Canvas all_round(const groove::GrooveSpec& spec, const groove::Joint& joint,
+Canvas all_round(const groove::GrooveSpec& spec, const groove::JointGeometry& joint,
                  const groove::Groove& g, const Caption& caption) {
   const std::string title = "Sections of the groove";
   const auto shown = spread(g);
@@ -209,7 +209,7 @@ Canvas all_round(const groove::GrooveSpec& spec, const groove::Joint& joint,
 
 Canvas groove_section_sheet(const groove::GrooveSpec& spec, const groove::Groove& groove,
                             const Caption& caption) {
-  const auto joint = groove::joint_of(spec);
+  const auto joint = groove::joint_geometry(spec);
   ask();
   if (!caption.options.omega) return all_round(spec, *joint, groove, caption);
   const auto s = groove::section_at(spec, Angle::deg(*caption.options.omega));

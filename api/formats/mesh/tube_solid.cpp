@@ -76,7 +76,7 @@ class Builder {
   [[nodiscard]] std::vector<Station> stations(const TubeCut& cut, const WallCurve& curve) const;
   void lay_edges(LaidWall& wall);
   void rule_faces(const LaidWall& wall);
-  [[nodiscard]] std::size_t joint(const LaidWall& wall, std::size_t station) const;
+  [[nodiscard]] std::size_t knot(const LaidWall& wall, std::size_t station) const;
   void add_seams(std::size_t side);
   struct Region {
     std::size_t right = 0;  // the seam to its right, as it goes up
@@ -228,9 +228,9 @@ void Builder::add_wall(const TubeCut& cut, const WallCurve& curve) {
   rule_faces(wall);
 }
 
-std::size_t Builder::joint(const LaidWall& wall, std::size_t station) const {
+std::size_t Builder::knot(const LaidWall& wall, std::size_t station) const {
   const auto& spline = out_.walls[wall.wall];
-  return station < spline.stations.size() ? spline.stations[station] : spline.joints.size() - 1;
+  return station < spline.stations.size() ? spline.stations[station] : spline.knots.size() - 1;
 }
 
 void Builder::lay_edges(LaidWall& wall) {
@@ -243,13 +243,13 @@ void Builder::lay_edges(LaidWall& wall) {
     for (std::size_t s = 0; s < n; ++s) {
       if (!wall.stations[s].vertex[k]) continue;
       with.push_back(s);
-      wall.at[k][s] = vertex(spline.points[k][spline.joints[spline.stations[s]].control]);
+      wall.at[k][s] = vertex(spline.points[k][spline.knots[spline.stations[s]].control]);
     }
     wall.at[k].back() = wall.at[k].front();
     with.push_back(n);
     for (std::size_t i = 0; i + 1 < with.size(); ++i) {
       const auto from = with[i], to = with[i + 1];
-      const TubeSolid::EdgeSpan curve{wall.wall, k, joint(wall, from), joint(wall, to)};
+      const TubeSolid::EdgeSpan curve{wall.wall, k, knot(wall, from), knot(wall, to)};
       wall.span[k][from] = edge(wall.at[k][from], wall.at[k][to], curve);
       if (k == 0 || k + 1 == wall.edges)
         borders_[k == 0 ? 0 : 1].push_back({{wall.span[k][from], wall.along}, true, 0});
@@ -276,7 +276,7 @@ void Builder::rule_faces(const LaidWall& wall) {
         if (wall.stations[s].vertex[k + 1]) loop.emplace_back(wall.span[k + 1][s], false);
       loop.emplace_back(lines[i], false);
       if (!wall.along) turn(loop);
-      const TubeSolid::Ruled surface{wall.wall, k, joint(wall, from), joint(wall, to)};
+      const TubeSolid::Ruled surface{wall.wall, k, knot(wall, from), knot(wall, to)};
       out_.faces.push_back({wall.name, surface, wall.along, true, {std::move(loop)}});
     }
   }

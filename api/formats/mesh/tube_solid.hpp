@@ -26,7 +26,7 @@ struct TubeSolid {
   struct Arc {
     double radius = 0.0, z = 0.0;  // counter-clockwise about z
   };
-  /// From joint to joint of one edge of a cut wall.
+  /// From knot to knot of one edge of a cut wall.
   struct EdgeSpan {
     std::size_t wall = 0, edge = 0, from = 0, to = 0;
   };

@@ -32,14 +32,14 @@ constexpr double kClosed = 1e-4;
 /// Returns the number of digits: a volume depends on the mean rounding error, relative to the wall.
 int digits_for(double wall) { return wall < kThin ? 6 : 5; }
 
-/// Returns multiplicities and knots of a wall's spline from joint to joint: "(4,2,4),(0.,1.,2.)";
-/// degree 1 if all joints are full.
+/// Returns multiplicities and knots of a wall's spline from knot to knot: "(4,2,4),(0.,1.,2.)";
+/// degree 1 if all knots are full.
 std::string knots(const WallSpline& spline, std::size_t from, std::size_t to, int degree = 3) {
   std::string counts = "(" + std::to_string(degree + 1), at = "(0.";
   for (auto i = from + 1; i <= to; ++i) {
-    const auto& joint = spline.joints[i];
-    counts += "," + std::to_string(i == to ? degree + 1 : joint.full ? degree : degree - 1);
-    at += "," + step_real(joint.u - spline.joints[from].u, kKnotDigits);
+    const auto& knot = spline.knots[i];
+    counts += "," + std::to_string(i == to ? degree + 1 : knot.full ? degree : degree - 1);
+    at += "," + step_real(knot.u - spline.knots[from].u, kKnotDigits);
   }
   return counts + ")," + at + ")";
 }
@@ -80,7 +80,7 @@ class Printer {
 std::vector<Id> Printer::points(const TubeSolid::EdgeSpan& span) {
   const auto& spline = solid_.walls[span.wall];
   std::vector<Id> out;
-  for (auto i = spline.joints[span.from].control; i <= spline.joints[span.to].control; ++i) {
+  for (auto i = spline.knots[span.from].control; i <= spline.knots[span.to].control; ++i) {
     pace_.turn();
     out.push_back(entities_.point(spline.points[span.edge][i]));
   }
@@ -93,18 +93,17 @@ Id Printer::curve(const TubeSolid::Edge&, const TubeSolid::EdgeSpan& span) {
                        knots(solid_.walls[span.wall], span.from, span.to) + ",.UNSPECIFIED.)");
 }
 
-/// Whether a smooth curve through its joints would cut a corner within it by more than kRounded.
+/// Whether a smooth curve through its knots would cut a corner within it by more than kRounded.
 bool Printer::has_corner(const TubeSolid::EdgeSpan& span) const {
   const auto& spline = solid_.walls[span.wall];
   const auto& points = spline.points[span.edge];
   for (auto i = span.from + 1; i < span.to; ++i) {
-    const auto& joint = spline.joints[i];
-    if (!joint.full) continue;
-    const auto c = joint.control;
+    const auto& knot = spline.knots[i];
+    if (!knot.full) continue;
+    const auto c = knot.control;
     const Eigen::Vector3d before = (points[c] - points[c - 1]).normalized();
     const Eigen::Vector3d after = (points[c + 1] - points[c]).normalized();
-    const double shorter =
-        std::min(joint.u - spline.joints[i - 1].u, spline.joints[i + 1].u - joint.u);
+    const double shorter = std::min(knot.u - spline.knots[i - 1].u, spline.knots[i + 1].u - knot.u);
     if (before.cross(after).norm() * shorter > 8.0 * kRounded || before.dot(after) < 0.0)
       return true;
   }
@@ -123,13 +122,13 @@ std::vector<const TubeSolid::Cylinder*> Printer::cylinders() const {
   return out;
 }
 
-/// Whether a span is straight in (phi, z) from joint to joint, by its parameter too.
+/// Whether a span is straight in (phi, z) from knot to knot, by its parameter too.
 bool Printer::polygonal(const TubeSolid::EdgeSpan& span) const {
   const auto& spline = solid_.walls[span.wall];
   const auto& flat = spline.flat[span.edge];
   const auto& points = spline.points[span.edge];
   for (auto i = span.from; i < span.to; ++i) {
-    const auto &a = spline.joints[i], &b = spline.joints[i + 1];
+    const auto &a = spline.knots[i], &b = spline.knots[i + 1];
     const double angle = flat[b.control].x() - flat[a.control].x();
     const double length = (points[b.control] - points[a.control]).norm();
     if (!b.full || angle * angle * length > 480.0 * kAhead) return false;
@@ -150,7 +149,7 @@ Id Printer::on_cylinder(Id curve, const TubeSolid::EdgeSpan& span,
   const auto& spline = solid_.walls[span.wall];
   const auto& flat = spline.flat[span.edge];
   const bool lines = polygonal(span);
-  const auto first = spline.joints[span.from].control, last = spline.joints[span.to].control;
+  const auto first = spline.knots[span.from].control, last = spline.knots[span.to].control;
   const double middle = 0.5 * (flat[first].x() + flat[last].x()) - cylinder.begins;
   const double begins = cylinder.begins + kTwoPi * std::floor(middle / kTwoPi);
   std::vector<Id> points;

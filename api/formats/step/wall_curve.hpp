@@ -41,7 +41,7 @@ class WallCurve {
   /// Returns the points at which an edge crosses the generator phi, in any turn.
   [[nodiscard]] std::vector<Place> crossings(std::size_t edge, double phi) const;
 
-  /// `stations`: joints of it, at least one, ascending; it begins at the first.
+  /// `stations`: knots of it, at least one, ascending; it begins at the first.
   [[nodiscard]] WallSpline spline(const std::vector<Place>& stations) const;
 
  private:

@@ -216,7 +216,7 @@ std::vector<WallCurve::Span> WallCurve::graded(std::vector<Span> spans) {
 
 WallSpline WallCurve::spline(const std::vector<Place>& stations) const {
   const auto all = graded(spans(nodes(stations)));
-  WallSpline out{.joints = {{}}, .points = {}, .flat = {}, .stations = {0}};
+  WallSpline out{.knots = {{}}, .points = {}, .flat = {}, .stations = {0}};
   for (const auto& first : all.front().curves) out.points.push_back({first[0]});
   for (const auto& first : all.front().flats) out.flat.push_back({first[0]});
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -226,10 +226,10 @@ WallSpline WallCurve::spline(const std::vector<Place>& stations) const {
       append(one.curves[k], one.full || last, out.points[k]);
       append(one.flats[k], one.full || last, out.flat[k]);
     }
-    out.joints.push_back({.u = out.joints.back().u + one.wide,
-                          .full = one.full || last,
-                          .control = out.points.front().size() - 1});
-    if (one.station && !last) out.stations.push_back(out.joints.size() - 1);
+    out.knots.push_back({.u = out.knots.back().u + one.wide,
+                         .full = one.full || last,
+                         .control = out.points.front().size() - 1});
+    if (one.station && !last) out.stations.push_back(out.knots.size() - 1);
   }
   for (auto& edge : out.points) edge.back() = edge.front();
   return out;

@@ -62,7 +62,7 @@ class RandomJoints {
   GrooveSpec next() {
     for (;;) {
       const GrooveSpec spec = draw();
-      const auto joint = joint_of(spec);
+      const auto joint = joint_geometry(spec);
       if (joint && survey(*joint, 0.0)) return spec;
     }
   }

@@ -237,7 +237,7 @@ TEST(GrooveFigures, DenserSurveyChangesNothing) {
     spec.sections = 5760;
     const auto found = groove(spec);
     ASSERT_TRUE(found);
-    const auto joint = joint_of(spec);
+    const auto joint = joint_geometry(spec);
     double length = 0.0;
     for (const auto& s : found->sections)
       length += kTwoPi / 5760 * std::hypot(s.p1.x(), section(*joint, s.omega)->z3_d);

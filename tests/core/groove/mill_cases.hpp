@@ -29,7 +29,9 @@ inline Hold hold_case(const std::string& name) {
   return text(golden_case(name), "inputs/hold") == "tip" ? Hold::tip : Hold::pivot;
 }
 
-inline Joint joint_case(const std::string& name) { return *joint_of(groove_case(name)); }
+inline JointGeometry joint_case(const std::string& name) {
+  return *joint_geometry(groove_case(name));
+}
 
 /// Distance of two angles in degrees on the circle.
 inline double turn_difference(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }

@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, Paths, ::testing::ValuesIn(kPaths));
 /// Exact poses with the increments of `at`, a turn in [0, 1), at equally spaced sections.
 template <class IncrementAt>
 std::vector<Block> exact_sections(const MillPathSpec& spec, int count, IncrementAt at) {
-  const Joint joint = *joint_of(spec.groove);
+  const JointGeometry joint = *joint_geometry(spec.groove);
   std::vector<Block> out;
   for (int i = 0; i < count; ++i) {
     const Angle omega = Angle::rad(kTwoPi * i / count);
@@ -66,7 +66,7 @@ std::vector<Block> linear_sections(const std::vector<Block>& emitted, int count)
 TEST_P(Paths, SweptFlankErrorAsSampledAndWithLinearAxes) {
   const auto path = mill_path(spec);
   ASSERT_TRUE(path);
-  const Joint joint = *joint_of(spec.groove);
+  const JointGeometry joint = *joint_geometry(spec.groove);
   const Cone cone{spec.mill};
   std::vector<double> dz, db;
   for (const auto& p : path->positions)
@@ -135,7 +135,8 @@ TEST_P(Paths, ProofPasses) {
 /// of the core but the joint's surface, which the golden sections prove.
 class PointTest {
  public:
-  explicit PointTest(const MillPathSpec& spec) : spec_(spec), joint_(*joint_of(spec.groove)) {}
+  explicit PointTest(const MillPathSpec& spec)
+      : spec_(spec), joint_(*joint_geometry(spec.groove)) {}
 
   struct Range {
     double min = 1e9, max = -1e9;
@@ -197,7 +198,7 @@ class PointTest {
   }
 
   const MillPathSpec& spec_;
-  Joint joint_;
+  JointGeometry joint_;
 };
 
 // Slopes over one step had the flank's third derivative in them: 4e-7 mm of a certificate.

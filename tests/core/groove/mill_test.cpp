@@ -15,7 +15,7 @@ using namespace testing;
 class GoldenMill : public ::testing::TestWithParam<const char*> {
  protected:
   const std::string name = GetParam();
-  const Joint joint = joint_case(name);
+  const JointGeometry joint = joint_case(name);
   const Mill mill = mill_case(name);
   const groove::Setup setup = setup_case(name);
   const Cone cone{mill};
@@ -204,7 +204,7 @@ TEST(MillContact, SecondOrderEstimateHolds) {
   const std::array<double, 3> share = {0.03, 0.042, 0.23};
   for (std::size_t c = 0; c < 3; ++c) {
     const std::string name = kCases[c];
-    const Joint joint = joint_case(name);
+    const JointGeometry joint = joint_case(name);
     const Cone cone{mill_case(name)};
     for (int degrees = 15; degrees < 360; degrees += 15) {
       const auto at_section = [&](double d) { return *section(joint, Angle::deg(degrees + d)); };

@@ -17,7 +17,7 @@ using namespace testing;
 
 /// A random joint, a mill that fits it, and one section.
 struct Bench {
-  Joint joint;
+  JointGeometry joint;
   Cone cone{Mill{.half_angle = {}, .tip_radius = 1.0, .length = 1.0}};
   groove::Setup setup;
   Neighbourhood near;
@@ -39,7 +39,7 @@ class Benches {
  private:
   std::unique_ptr<Bench> draw() {
     auto out = std::make_unique<Bench>();
-    out->joint = *joint_of(joints_.next());
+    out->joint = *joint_geometry(joints_.next());
     const auto whole = survey(out->joint, 0.0);
     if (!whole) return nullptr;
     Mill mill{Angle::deg(joints_.uniform(8.0, 30.0)),
@@ -243,7 +243,7 @@ TEST(Annealing, CasesMatchThePublishedFigures) {
   // 8.5 gives .0148/.0345, .0178/.0281, .0408/.1220 mm for the same objective with another
   // generator and other moves.
   for (const char* name : kCases) {
-    const Joint joint = joint_case(name);
+    const JointGeometry joint = joint_case(name);
     const Cone cone{mill_case(name)};
     double sum = 0.0, most = 0.0, optimum = 0.0;
     int count = 0;

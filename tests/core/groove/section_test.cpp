@@ -27,7 +27,7 @@ void expect_pair(const Eigen::Vector2d& got, const api::Json& want, const std::s
 }
 
 TEST_P(GoldenGroove, EverySection) {
-  const auto joint = joint_of(groove_case(GetParam()));
+  const auto joint = joint_geometry(groove_case(GetParam()));
   const auto found = groove(groove_case(GetParam()));
   ASSERT_TRUE(joint && found);
   const auto& want = golden_sections(GetParam());
@@ -136,7 +136,7 @@ TEST(GrooveSections, FlatPlateLimit) {
 }
 
 TEST(GrooveSections, RightAngleWithoutOffsetHasTwoMirrors) {
-  const auto joint = joint_of(groove_case("B_near_equal"));
+  const auto joint = joint_geometry(groove_case("B_near_equal"));
   ASSERT_TRUE(joint);
   std::vector<Section> s;
   for (int i = 0; i < 24; ++i) s.push_back(*section(*joint, Angle::deg(15.0 * i)));
@@ -205,7 +205,7 @@ TEST(GrooveSections, DerivativesAreThoseOfTheSections) {
   for (int i = 0; i < tubecut::testing::drawings(50, 200); ++i) {
     GrooveSpec spec = joints.next();
     spec.area_in = i % 2 == 0 ? AreaIn::axial : AreaIn::normal;
-    const auto joint = joint_of(spec);
+    const auto joint = joint_geometry(spec);
     const double omega = joints.uniform(0.0, kTwoPi), step = 2e-4;
     if (!joint && spec.area_in == AreaIn::normal) continue;  // no value is equal all round
     ASSERT_TRUE(joint);

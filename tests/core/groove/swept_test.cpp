@@ -21,7 +21,7 @@ struct Increments {
   int most = 0;
 
   static Increments optima(const std::string& name, int count, Hold hold) {
-    const Joint joint = joint_case(name);
+    const JointGeometry joint = joint_case(name);
     const Cone cone{mill_case(name)};
     const groove::Setup setup = setup_case(name);
     Increments out;
@@ -50,7 +50,7 @@ struct Increments {
 
 template <class IncrementAt>
 std::vector<Block> blocks(const std::string& name, int count, Hold hold, IncrementAt increment) {
-  const Joint joint = joint_case(name);
+  const JointGeometry joint = joint_case(name);
   const groove::Setup setup = setup_case(name);
   std::vector<Block> out;
   for (int i = 0; i < count; ++i) {
@@ -125,7 +125,7 @@ TEST_P(GoldenSwept, InitialPositions) {
 /// segments next to the best. Nothing is skipped.
 class FullCheck {
  public:
-  FullCheck(const Joint& joint, const Cone& cone, const groove::Setup& setup,
+  FullCheck(const JointGeometry& joint, const Cone& cone, const groove::Setup& setup,
             std::span<const Block> motion, Between between)
       : joint_(joint), cone_(cone), setup_(setup), motion_(motion), between_(between) {}
 
@@ -205,7 +205,7 @@ class FullCheck {
     return left.value < right.value ? left : right;
   }
 
-  const Joint& joint_;
+  const JointGeometry& joint_;
   const Cone& cone_;
   const groove::Setup& setup_;
   std::span<const Block> motion_;
@@ -225,7 +225,7 @@ TEST(Swept, SkipsNothingThatMatters) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   int compared = 0;
   for (const char* const name : kCases) {
-    const Joint joint = joint_case(name);
+    const JointGeometry joint = joint_case(name);
     const groove::Setup setup = setup_case(name);
     for (const int count : {24, 90, 181}) {
       for (const double noise : {0.0, 0.003, 0.3}) {

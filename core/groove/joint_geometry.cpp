@@ -1,4 +1,4 @@
-#include "core/groove/joint.hpp"
+#include "core/groove/joint_geometry.hpp"
 
 #include <cmath>
 #include <utility>
@@ -128,8 +128,8 @@ std::vector<Issue> shape_issues(const GrooveSpec& spec) {
   return issues;
 }
 
-Joint dimensions(const GrooveSpec& spec) {
-  Joint out;
+JointGeometry dimensions(const GrooveSpec& spec) {
+  JointGeometry out;
   out.chord_radius = 0.5 * spec.chord.outer_diameter;
   out.bore_radius = out.chord_radius - spec.chord.wall;
   out.branch_radius = 0.5 * spec.branch.outer_diameter;
@@ -146,7 +146,7 @@ Joint dimensions(const GrooveSpec& spec) {
 }
 
 /// Computes the axial area of a groove of this height there.
-Result<double> area_of_height(const Joint& joint, const FillerHeight& reference) {
+Result<double> area_of_height(const JointGeometry& joint, const FillerHeight& reference) {
   const Direction dir = direction(reference.at);
   const auto found = toe(joint, dir);
   if (!found)
@@ -167,10 +167,10 @@ Result<double> area_of_height(const Joint& joint, const FillerHeight& reference)
 
 std::string degrees_text(Angle angle) { return brief(angle.deg()) + " deg"; }
 
-Result<Joint> joint_of(const GrooveSpec& spec) {
+Result<JointGeometry> joint_geometry(const GrooveSpec& spec) {
   TRY(no_issues(field_issues(spec)));
   TRY(no_issues(shape_issues(spec)));
-  Joint out = dimensions(spec);
+  JointGeometry out = dimensions(spec);
   std::optional<KeptArea> kept;
   if (const auto* given = std::get_if<FillerArea>(&spec.filler)) {
     out.area = given->area;

@@ -60,7 +60,7 @@ struct GrooveSpec {
 };
 
 /// A checked joint: the input of every formula of the groove. Lengths in mm.
-struct Joint {
+struct JointGeometry {
   double chord_radius = 0.0;   // R
   double bore_radius = 0.0;    // R - delta1
   double branch_radius = 0.0;  // r
@@ -86,7 +86,7 @@ inline constexpr int kMaxSections = 20000;
 ///         p2_ambiguous at the reference section of a filler height; `area` also if normal sections
 ///         cannot be made equal.
 /// Source  docs/theory/grooves-and-milling.md, sections 1 and 9.
-[[nodiscard]] Result<Joint> joint_of(const GrooveSpec& spec);
+[[nodiscard]] Result<JointGeometry> joint_geometry(const GrooveSpec& spec);
 
 /// Returns an angle as degrees with enough digits for a message.
 [[nodiscard]] std::string degrees_text(Angle angle);
