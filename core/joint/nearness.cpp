@@ -24,7 +24,7 @@ using Cell = std::array<std::int64_t, 3>;
 /// The ends of all axis segments, sorted into cubes.
 class Grid {
  public:
-  explicit Grid(std::span<const Stretch> stretches);
+  explicit Grid(std::span<const AxisSegment> segments);
 
   /// Calls `visit(end)` for every end in a cube that the box meets.
   template <class F>
@@ -66,22 +66,22 @@ class Grid {
   std::vector<Entry> entries_;  // ascending key, then end
 };
 
-Grid::Grid(std::span<const Stretch> stretches) {
-  Vector3d low = stretches.front().start, high = low;
+Grid::Grid(std::span<const AxisSegment> segments) {
+  Vector3d low = segments.front().start, high = low;
   double length = 0.0, reach = 0.0;
-  for (const auto& s : stretches) {
+  for (const auto& s : segments) {
     low = low.cwiseMin(s.start).cwiseMin(s.finish);
     high = high.cwiseMax(s.start).cwiseMax(s.finish);
     length += (s.finish - s.start).norm();
     reach += s.reach;
   }
-  const auto n = static_cast<double>(stretches.size());
+  const auto n = static_cast<double>(segments.size());
   low_ = low;
   size_ = std::max({length / (kCellsPerMember * n), 2.0 * reach / n,
                     (high - low).maxCoeff() / (kCellsAlongAxis - 2.0), 1e-9});
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
-    entries_.push_back({key(cell(stretches[i].start)), 2 * i});
-    entries_.push_back({key(cell(stretches[i].finish)), 2 * i + 1});
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    entries_.push_back({key(cell(segments[i].start)), 2 * i});
+    entries_.push_back({key(cell(segments[i].finish)), 2 * i + 1});
   }
   std::ranges::sort(entries_, [](const Entry& a, const Entry& b) {
     return a.key != b.key ? a.key < b.key : a.end < b.end;
@@ -91,7 +91,7 @@ Grid::Grid(std::span<const Stretch> stretches) {
 /// Calls `visit(end)` once for every end near the segment. It searches piece by piece along it, so
 /// that a long diagonal member does not search its whole box.
 template <class F>
-void search(const Grid& grid, const Stretch& s, std::size_t ends, F visit) {
+void search(const Grid& grid, const AxisSegment& s, std::size_t ends, F visit) {
   const Vector3d along = s.finish - s.start;
   const Vector3d reach = Vector3d::Constant(s.reach);
   int axis = 0;
@@ -127,21 +127,21 @@ void search(const Grid& grid, const Stretch& s, std::size_t ends, F visit) {
 /// Calls `see(touch)` for every end within the reach of another axis segment, until it returns
 /// false.
 template <class F>
-Result<void> for_touches(std::span<const Stretch> stretches, F see) {
-  if (stretches.empty()) return {};
-  const Grid grid(stretches);
-  const auto ends = 2 * stretches.size();
-  std::vector<std::size_t> seen(ends, stretches.size());
+Result<void> for_touches(std::span<const AxisSegment> segments, F see) {
+  if (segments.empty()) return {};
+  const Grid grid(segments);
+  const auto ends = 2 * segments.size();
+  std::vector<std::size_t> seen(ends, segments.size());
   bool more = true;
-  for (std::size_t i = 0; i < stretches.size() && more; ++i) {
+  for (std::size_t i = 0; i < segments.size() && more; ++i) {
     if (stopped()) return fail({.code = ErrorCode::cancelled});
-    search(grid, stretches[i], ends, [&](std::size_t end) {
+    search(grid, segments[i], ends, [&](std::size_t end) {
       if (end / 2 == i || seen[end] == i)
         return;  // a cube on the border of two pieces occurs twice
       seen[end] = i;
-      const auto& own = stretches[end / 2];
-      const auto near = nearness(end % 2 == 0 ? own.start : own.finish, stretches[i]);
-      if (near.distance <= stretches[i].reach && !see(Touch{end, i, near})) more = false;
+      const auto& own = segments[end / 2];
+      const auto near = nearness(end % 2 == 0 ? own.start : own.finish, segments[i]);
+      if (near.distance <= segments[i].reach && !see(Touch{end, i, near})) more = false;
     });
   }
   return {};
@@ -149,17 +149,17 @@ Result<void> for_touches(std::span<const Stretch> stretches, F see) {
 
 }  // namespace
 
-Nearness nearness(const Vector3d& point, const Stretch& stretch) {
-  const Vector3d along = stretch.finish - stretch.start;
+Nearness nearness(const Vector3d& point, const AxisSegment& segment) {
+  const Vector3d along = segment.finish - segment.start;
   const double length = along.norm();
   const Vector3d unit = along / length;
-  const double at = std::clamp((point - stretch.start).dot(unit), 0.0, length);
-  return {.distance = (point - (stretch.start + at * unit)).norm(),
+  const double at = std::clamp((point - segment.start).dot(unit), 0.0, length);
+  return {.distance = (point - (segment.start + at * unit)).norm(),
           .inside = std::min(at, length - at)};
 }
 
 // The minimum is between the lines' nearest points if both lie within, else at an end.
-double nearness(const Stretch& a, const Stretch& b) {
+double nearness(const AxisSegment& a, const AxisSegment& b) {
   const Vector3d u = a.finish - a.start, v = b.finish - b.start, w = b.start - a.start;
   const Vector3d n = u.cross(v);
   double out = std::min({nearness(a.start, b).distance, nearness(a.finish, b).distance,
@@ -172,11 +172,11 @@ double nearness(const Stretch& a, const Stretch& b) {
   return out;
 }
 
-Result<std::vector<Touch>> touches(std::span<const Stretch> stretches, std::size_t most) {
+Result<std::vector<Touch>> touches(std::span<const AxisSegment> segments, std::size_t most) {
   std::vector<Touch> out;
-  std::vector<std::size_t> count(2 * stretches.size(), 0);
+  std::vector<std::size_t> count(2 * segments.size(), 0);
   std::optional<std::size_t> crowded;
-  TRY(for_touches(stretches, [&](const Touch& touch) {
+  TRY(for_touches(segments, [&](const Touch& touch) {
     out.push_back(touch);
     if (++count[touch.end] > most) crowded = touch.end;
     return !crowded;
@@ -194,13 +194,13 @@ Result<std::vector<Touch>> touches(std::span<const Stretch> stretches, std::size
   return out;
 }
 
-Result<std::vector<std::optional<Touch>>> nearest_touches(std::span<const Stretch> stretches,
+Result<std::vector<std::optional<Touch>>> nearest_touches(std::span<const AxisSegment> segments,
                                                           const std::vector<bool>& ends) {
   std::vector<std::optional<Touch>> out(ends.size());
   const auto share = [&](const Touch& touch) {
-    return touch.near.distance / stretches[touch.other].reach;
+    return touch.near.distance / segments[touch.other].reach;
   };
-  TRY(for_touches(stretches, [&](const Touch& touch) {
+  TRY(for_touches(segments, [&](const Touch& touch) {
     auto& nearest = out[touch.end];
     if (ends[touch.end] && (!nearest || share(touch) < share(*nearest))) nearest = touch;
     return true;

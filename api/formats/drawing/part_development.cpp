@@ -69,16 +69,16 @@ std::vector<DevelopmentPlan::Strip> strips_of(const std::vector<Place>& places, 
   return out;
 }
 
-/// One stretch of a strip, cut off at its ends.
-class Stretch {
+/// Draws one segment of a strip, cut off at its ends.
+class SegmentDrawing {
  public:
-  Stretch(Canvas& canvas, const DevelopmentPlan& plan, const DevelopmentPlan::Stretch& stretch,
-          const part::PartSpec& spec, const part::Part& part, DrawingPoint top)
-      : canvas_(canvas), plan_(plan), stretch_(stretch), spec_(spec), part_(part), top_(top) {}
+  SegmentDrawing(Canvas& canvas, const DevelopmentPlan& plan, const StripSegment& segment,
+                 const part::PartSpec& spec, const part::Part& part, DrawingPoint top)
+      : canvas_(canvas), plan_(plan), segment_(segment), spec_(spec), part_(part), top_(top) {}
 
   void draw() {
-    canvas_.begin_clip({top_.x + stretch_.at, top_.y - plan_.scale.factor * plan_.girth},
-                       {x(stretch_.to), top_.y});
+    canvas_.begin_clip({top_.x + segment_.at, top_.y - plan_.scale.factor * plan_.girth},
+                       {x(segment_.to), top_.y});
     metal();
     quarters();
     if (holds(place_of(part_.start.table))) end(part_.start, spec_.start.welded, "start", 0);
@@ -95,13 +95,13 @@ class Stretch {
 
  private:
   [[nodiscard]] double x(double z) const {
-    return top_.x + stretch_.at + plan_.scale.factor * (z - stretch_.from);
+    return top_.x + segment_.at + plan_.scale.factor * (z - segment_.from);
   }
   [[nodiscard]] DrawingPoint at(double phi, double z) const {
     return {x(z), top_.y - plan_.scale.factor * spec_.target.outer_radius * (phi - plan_.opened)};
   }
   [[nodiscard]] bool holds(const Place& place) const {
-    return place.z_to >= stretch_.from && place.z_from <= stretch_.to;
+    return place.z_to >= segment_.from && place.z_from <= segment_.to;
   }
   [[nodiscard]] std::vector<DrawingPoint> curve(const RoundEdge& edge) const {
     std::vector<DrawingPoint> out;
@@ -123,8 +123,8 @@ class Stretch {
     const auto start = outer(part_.start), finish = outer(part_.finish);
     for (int i = 0; i < 4; ++i) {
       const double phi = turned_from(plan_.opened, 0.5 * kPi * i);
-      const auto from = std::max(start.at(phi), stretch_.from);
-      const auto to = std::min(finish.at(phi), stretch_.to);
+      const auto from = std::max(start.at(phi), segment_.from);
+      const auto to = std::min(finish.at(phi), segment_.to);
       canvas_.line(at(phi, from), at(phi, to), i == 0 ? kDatum : kQuarter);
       if (i == 0 && phi == plan_.opened)
         canvas_.line(at(phi + kTwoPi, from), at(phi + kTwoPi, to), kDatum);
@@ -138,7 +138,7 @@ class Stretch {
     canvas_.polyline(curve(outer(end)), kCut, name + "_outer");
   }
 
-  /// Each stretch of the edge in its partner's colour.
+  /// Each part of the edge in its partner's colour.
   void colored(const bevel::Table& t, std::size_t first_color) {
     std::vector<DrawingPoint> run;
     const auto end_run = [&](std::size_t partner) {
@@ -231,7 +231,7 @@ class Stretch {
 
   Canvas& canvas_;
   const DevelopmentPlan& plan_;
-  const DevelopmentPlan::Stretch& stretch_;
+  const StripSegment& segment_;
   const part::PartSpec& spec_;
   const part::Part& part_;
   DrawingPoint top_;
@@ -263,7 +263,7 @@ class Beside {
   }
 
  private:
-  [[nodiscard]] double x_of(const DevelopmentPlan::Stretch& s, double z) const {
+  [[nodiscard]] double x_of(const StripSegment& s, double z) const {
     return top_.x + s.at + plan_.scale.factor * (z - s.from);
   }
   [[nodiscard]] double x(double z) const {
@@ -392,8 +392,8 @@ void draw_strip(Canvas& canvas, const DevelopmentPlan& plan, std::size_t index,
                                                 std::to_string(plan.strips.size())
                                           : ""),
               {.height = 3.0, .bold = true});
-  for (const auto& stretch : plan.strips[index])
-    Stretch(canvas, plan, stretch, spec, part, top).draw();
+  for (const auto& segment : plan.strips[index])
+    SegmentDrawing(canvas, plan, segment, spec, part, top).draw();
   Beside(canvas, plan, index, part, top).draw();
 }
 

@@ -8,16 +8,18 @@
 
 namespace tubecut::api {
 
+/// A segment of the tube on a strip of paper.
+struct StripSegment {
+  double from = 0.0, to = 0.0;  // z
+  double at = 0.0;              // of `from` on paper, from the strip's left edge
+};
+
 /// Layout of a part's outside laid flat on paper: true to shape, at one usual scale, as seen from
 /// outside (z to the right, hence phi downwards, because x, y, z is right-handed). It is cut open
 /// away from holes. Plain lengths are omitted, with a break; if it is too long, it continues on the
 /// next strip.
 struct DevelopmentPlan {
-  struct Stretch {
-    double from = 0.0, to = 0.0;  // z
-    double at = 0.0;              // of `from` on paper, from the strip's left edge
-  };
-  using Strip = std::vector<Stretch>;
+  using Strip = std::vector<StripSegment>;
 
   DrawingScale scale;
   double opened = 0.0;  // phi at the upper edge

@@ -98,7 +98,7 @@ struct TemplateLabels::Writing {
   DrawingPoint by;  // of the drawing's origin
   DrawingBox room;  // shown part of the surface
   std::vector<DrawingBox> taken = {};
-  double name_room = 45.0;  // mm, of a partner's name that its stretch is too short for
+  double name_room = 45.0;  // mm, of a partner's name that its span is too short for
 
   [[nodiscard]] bool is_free(const DrawingBox& box) const {
     return room.holds(box) &&
@@ -267,8 +267,8 @@ void TemplateLabels::write_mark(Writing& w, const part::Mark& mark) const {
     }
 }
 
-std::optional<TemplateLabels::Stretch> TemplateLabels::stretch_of(const Writing& w,
-                                                                  const PartnerSpan& span) const {
+std::optional<TemplateLabels::VisibleSpan> TemplateLabels::visible_span(
+    const Writing& w, const PartnerSpan& span) const {
   const auto& names = span.finish ? caption_.finish_partners : caption_.partners;
   if (span.partner >= names.size()) return std::nullopt;
   double a = field_.at(field_.radius * span.phi_from, 0.0).x + w.by.x;
@@ -277,14 +277,14 @@ std::optional<TemplateLabels::Stretch> TemplateLabels::stretch_of(const Writing&
   a = std::max(a, w.room.low.x) + 0.3;
   b = std::min(b, w.room.high.x) - 0.3;
   if (b - a < 0.5) return std::nullopt;
-  return Stretch{a, b, names[span.partner]};
+  return VisibleSpan{a, b, names[span.partner]};
 }
 
 /// Shortens the names next to their segments until all fit next to each other.
 void TemplateLabels::share_name_room(Writing& w) const {
   double wanted = 0.0, count = 0.0;
   for (const auto& span : d_.spans)
-    if (const auto s = stretch_of(w, span)) {
+    if (const auto s = visible_span(w, span)) {
       const double width = text_width(s->name, kLeastText);
       if (width <= s->to - s->from) continue;
       wanted += std::min(width, w.name_room);
@@ -298,9 +298,9 @@ void TemplateLabels::share_name_room(Writing& w) const {
 /// Writes the name on the side of the scrap: along its segment of the edge, or, if that is too
 /// short, with a line to it.
 void TemplateLabels::write_partner(Writing& w, const PartnerSpan& span) const {
-  const auto stretch = stretch_of(w, span);
-  if (!stretch) return;
-  const auto& [a, b, name] = *stretch;
+  const auto visible = visible_span(w, span);
+  if (!visible) return;
+  const auto& [a, b, name] = *visible;
   const auto& line = span.finish ? finish_ : start_;
   Lettering l{.height = 2.8, .anchor = Anchor::middle, .color = kName};
   if (text_width(name, kLeastText) <= b - a) {

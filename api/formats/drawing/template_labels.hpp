@@ -42,11 +42,12 @@ class TemplateLabels {
   };
   struct Writing;
   /// The visible range of a partner's segment of an edge, x of the canvas, and the partner's name.
-  struct Stretch {
+  struct VisibleSpan {
     double from, to;
     const std::string& name;
   };
-  [[nodiscard]] std::optional<Stretch> stretch_of(const Writing& w, const PartnerSpan& span) const;
+  [[nodiscard]] std::optional<VisibleSpan> visible_span(const Writing& w,
+                                                        const PartnerSpan& span) const;
   void share_name_room(Writing& w) const;
   static bool write_beside(Writing& w, const Skyline& line, bool finish, double foot, double side,
                            int k, const std::string& text, const Lettering& l);

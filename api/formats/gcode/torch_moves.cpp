@@ -118,12 +118,12 @@ double sag(const TorchReach& reach, const TorchPlace& from, const TorchPlace& to
 
 std::vector<TorchPlace> straight_moves(const TorchReach& reach, const TorchPlace& from,
                                        const TorchPlace& to, double limit) {
-  struct Stretch {
+  struct SubMove {
     double end;
     int halvings;
   };
   std::vector<TorchPlace> out;
-  std::vector<Stretch> todo{{1.0, 0}};
+  std::vector<SubMove> todo{{1.0, 0}};
   auto at = from;
   double share = 0.0;
   while (!todo.empty()) {

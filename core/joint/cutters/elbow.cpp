@@ -73,7 +73,7 @@ Near near_circle(const PreparedElbow& e, const Vector3d& p) {
 }
 
 /// The segments of the centre line; the arc is present if the point faces it.
-struct Stretches {
+struct NearParts {
   std::array<Near, 3> all;
   std::size_t count;
   [[nodiscard]] const Near& nearest() const {
@@ -82,8 +82,8 @@ struct Stretches {
   }
 };
 
-Stretches stretches(const PreparedElbow& e, const Legs& l, const Vector3d& p) {
-  Stretches out{{near_leg(p, l.start, -Vector3d::UnitY()), near_leg(p, l.end, l.end_along), {}}, 2};
+NearParts near_parts(const PreparedElbow& e, const Legs& l, const Vector3d& p) {
+  NearParts out{{near_leg(p, l.start, -Vector3d::UnitY()), near_leg(p, l.end, l.end_along), {}}, 2};
   if (!in_sector(e, p)) return out;
   if (!(elementary::hypot(p.x(), p.y()) > 0.0)) return out;
   out.all[2] = near_circle(e, p);
@@ -281,7 +281,7 @@ ElbowPass PreparedElbow::pass(const Generator& line) const {
   double z = high;
   for (int step = 0; step < kSteps && z >= low; ++step) {
     const Vector3d p = o + z * rise;
-    const auto all = stretches(*this, l, p);
+    const auto all = near_parts(*this, l, p);
     const double gap = all.nearest().distance - radius;
     if (gap > out.clearance && out.clearance <= kTouch * size)
       break;  // it has touched the upper sheet
@@ -298,7 +298,7 @@ ElbowPass PreparedElbow::pass(const Generator& line) const {
   if (out.clearance > kOnSurface * size) {
     const auto nearest = closest(*this, o, kTouch * size);
     const auto outside = [&](double at) {
-      return stretches(*this, l, o + at * rise).nearest().distance > radius;
+      return near_parts(*this, l, o + at * rise).nearest().distance > radius;
     };
     const bool enters = nearest.clearance < 0.0 && nearest.z < z;  // if the steps ran out above it
     out.clearance = nearest.clearance;
@@ -316,7 +316,7 @@ std::optional<double> PreparedElbow::upper_sheet(const Generator& line) const {
 Hit PreparedElbow::continued_hit(const Generator& line) const {
   const double z = pass(line).z;
   const Vector3d p = foot_of(*this, line) + z * rise;
-  const auto near = stretches(*this, legs(*this), p).nearest();
+  const auto near = near_parts(*this, legs(*this), p).nearest();
   const Vector3d u = (p - near.foot) / near.distance;
   return hit_on({z, u, std::max(0.0, u.dot(rise)), 0.0}, rows, line);
 }

@@ -14,7 +14,7 @@ namespace {
 std::string place_of(std::size_t member) { return "members/" + std::to_string(member); }
 using joint::place_of;
 
-Stretch stretch(const Member& m, double reach) { return {m.start, m.finish, reach}; }
+AxisSegment axis_segment(const Member& m, double reach) { return {m.start, m.finish, reach}; }
 
 /// Checks a member that is not round: its height lies along its `up`.
 Result<void> check_section(const Member& m) {
@@ -76,14 +76,15 @@ bool lies_next_to(const NodeSpec& spec, const Touch& touch) {
   if (runs_along(spec, touch, kNearParallel)) return true;
   const auto& own = spec.members[touch.end / 2];
   const auto& other = spec.members[touch.other];
-  const double apart = nearness(Stretch{own.start, own.finish}, Stretch{other.start, other.finish});
+  const double apart =
+      nearness(AxisSegment{own.start, own.finish}, AxisSegment{other.start, other.finish});
   return apart < touch.near.distance - kTouch && apart < own.reach() + other.reach() + kTouch;
 }
 
 Result<Joined> joined_within(const NodeSpec& spec, double distance) {
-  std::vector<Stretch> stretches;
-  for (const auto& m : spec.members) stretches.push_back(stretch(m, distance + m.reach()));
-  TRY(const auto found, touches(stretches, kMostCutters));
+  std::vector<AxisSegment> segments;
+  for (const auto& m : spec.members) segments.push_back(axis_segment(m, distance + m.reach()));
+  TRY(const auto found, touches(segments, kMostCutters));
   Joined out(2 * spec.members.size());
   for (const auto& touch : found)
     if (!runs_along(spec, touch, kInLine)) out[touch.end].push_back(touch);
@@ -96,9 +97,9 @@ Result<Joined> joined_by(const NodeSpec& spec, const std::vector<Link>& links) {
     const auto end = 2 * link.member + (link.end == End::finish ? 1 : 0);
     for (const auto to : link.to)
       if (std::ranges::find(out[end], to, &Touch::other) == out[end].end())
-        out[end].push_back(
-            {end, to,
-             nearness(spec.members[link.member].at(link.end), stretch(spec.members[to], 0.0))});
+        out[end].push_back({end, to,
+                            nearness(spec.members[link.member].at(link.end),
+                                     axis_segment(spec.members[to], 0.0))});
     if (out[end].size() > kMostCutters)
       return fail({.code = ErrorCode::wrong_count,
                    .member = place_of(link.member, link.end),
@@ -121,12 +122,12 @@ Result<Missed> missed(const NodeSpec& spec, const Joined& joined) {
   const auto* within = std::get_if<Within>(&spec.connect);
   if (within == nullptr) return Missed(joined.size());
   constexpr double kTimes = 3.0;
-  std::vector<Stretch> stretches;
+  std::vector<AxisSegment> segments;
   for (const auto& m : spec.members)
-    stretches.push_back(stretch(m, kTimes * (within->distance + m.reach())));
+    segments.push_back(axis_segment(m, kTimes * (within->distance + m.reach())));
   std::vector<bool> free;
   for (const auto& touches : joined) free.push_back(touches.empty());
-  TRY(auto out, nearest_touches(stretches, free));
+  TRY(auto out, nearest_touches(segments, free));
   const auto joins = [&](std::size_t end, std::size_t other) {
     return std::ranges::count(joined[end], other, &Touch::other) > 0;
   };

@@ -219,7 +219,7 @@ Result<void> apply(const NodeSpec& spec, const Lines& lines, std::size_t index, 
   const auto& q = spec.members[b];
   if (joint.kind == JointKind::through) {
     const double reach = p.reach() + q.reach();
-    if (!(nearness(Stretch{p.start, p.finish}, Stretch{q.start, q.finish}) < reach))
+    if (!(nearness(AxisSegment{p.start, p.finish}, AxisSegment{q.start, q.finish}) < reach))
       return apart(spec, index, "the two do not reach each other");
     TRY(check_passing(spec, index));
     part(joined, a, b);

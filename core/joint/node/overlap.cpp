@@ -195,7 +195,7 @@ bool settled(const Nodes& nodes, const std::vector<Pair>& stated, std::size_t a,
   return std::ranges::binary_search(stated, Pair{a, b});
 }
 
-Stretch stretch(const Member& m) { return {m.start, m.finish, m.reach()}; }
+AxisSegment axis_segment(const Member& m) { return {m.start, m.finish, m.reach()}; }
 
 struct Box {
   Vector3d low, high;
@@ -226,7 +226,8 @@ bool near_pairs(const NodeSpec& spec, std::optional<std::size_t> only, F visit) 
     for (const auto j : open) {
       if (stopped()) return false;
       if ((only && *only != i && *only != j) || boxes[j].misses(boxes[i])) continue;
-      if (!(nearness(stretch(m[i]), stretch(m[j])) < m[i].reach() + m[j].reach())) continue;
+      if (!(nearness(axis_segment(m[i]), axis_segment(m[j])) < m[i].reach() + m[j].reach()))
+        continue;
       if (!visit(std::min(i, j), std::max(i, j))) return true;
     }
     open.push_back(i);

@@ -269,7 +269,7 @@ TEST(Nearness, FindsEveryTouch) {
   Random random(20260125);
   std::size_t total = 0;
   for (int n = 0; n < 20; ++n) {
-    std::vector<Stretch> all;
+    std::vector<AxisSegment> all;
     for (int i = 0; i < 150; ++i) {
       const Vector3d start = random.in_box(3000);
       const double length = i % 10 == 0 ? 6000.0 : random.any(50, 900);
