@@ -37,21 +37,21 @@ PeriodicSpline::PeriodicSpline(std::vector<double> values) : values_(std::move(v
   bends_ = solve_round(std::move(rhs));
 }
 
-PeriodicSpline::Place PeriodicSpline::place(double station) const {
+PeriodicSpline::SplinePosition PeriodicSpline::position(double station) const {
   const double whole = std::floor(station), n = double(values_.size());
   const auto i = std::size_t(whole - n * std::floor(whole / n));
   return {i, (i + 1) % values_.size(), station - whole};
 }
 
 double PeriodicSpline::operator()(double station) const {
-  const auto [i, j, t] = place(station);
+  const auto [i, j, t] = position(station);
   const double u = 1.0 - t;
   return u * values_[i] + t * values_[j] +
          ((u * u * u - u) * bends_[i] + (t * t * t - t) * bends_[j]) / 6.0;
 }
 
 double PeriodicSpline::slope(double station) const {
-  const auto [i, j, t] = place(station);
+  const auto [i, j, t] = position(station);
   const double u = 1.0 - t;
   return values_[j] - values_[i] +
          ((1.0 - 3.0 * u * u) * bends_[i] + (3.0 * t * t - 1.0) * bends_[j]) / 6.0;

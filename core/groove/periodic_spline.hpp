@@ -20,11 +20,11 @@ class PeriodicSpline {
 
  private:
   /// The position of a station: between values i and j, at the fraction t.
-  struct Place {
+  struct SplinePosition {
     std::size_t i, j;
     double t;
   };
-  [[nodiscard]] Place place(double station) const;
+  [[nodiscard]] SplinePosition position(double station) const;
 
   std::vector<double> values_;
   std::vector<double> bends_;  // second derivatives, per step^2

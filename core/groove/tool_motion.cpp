@@ -160,7 +160,8 @@ Least ToolMotion::over_motion(const WorkPoint& point, Part part) {
   return best;
 }
 
-ToolMotion::Place ToolMotion::place(const WorkPoint& point, Part part, double t) const {
+ToolMotion::ToolFramePoint ToolMotion::in_tool_frame(const WorkPoint& point, Part part,
+                                                     double t) const {
   const Station at = station_of(block_at(blocks_, t), setup_);
   const Eigen::Vector3d p = at.seen(point);
   const auto [rho, l, across] = Cone::meridian(at.pose, p);
@@ -184,7 +185,7 @@ ToolMotion::Step ToolMotion::step_from(double block) const {
 
 /// Computes the velocity of the point in the tool's frame, per block: the ruling turns against the
 /// section, the pivot runs straight, the axis tilts.
-Eigen::Vector3d ToolMotion::velocity(const Place& at, const Step& step) const {
+Eigen::Vector3d ToolMotion::velocity(const ToolFramePoint& at, const Step& step) const {
   const double sign = setup_.mount == Mount::end_up ? -1.0 : 1.0;
   const Eigen::Vector2d& axis = at.axis;
   const Eigen::Vector2d lean = sign * step.lean * Eigen::Vector2d(axis.y(), -axis.x());
@@ -197,7 +198,7 @@ Eigen::Vector3d ToolMotion::velocity(const Place& at, const Step& step) const {
 }
 
 /// Returns a bound of the acceleration, per square of a block, of a point in the tool's frame.
-double ToolMotion::acceleration(const WorkPoint& point, const Place& at_one_end,
+double ToolMotion::acceleration(const WorkPoint& point, const ToolFramePoint& at_one_end,
                                 const Step& step) const {
   const double lean = std::abs(step.lean), turn = step.turn;
   const double way = std::abs(step.x) + std::abs(step.z) + turn * point.s;
@@ -209,7 +210,8 @@ double ToolMotion::acceleration(const WorkPoint& point, const Place& at_one_end,
 /// between two places at one block's distance: the point's path past the axis bends its distance
 /// from that, and its acceleration removes at most its whole magnitude. Returns at most 0 if there
 /// is no bound.
-double ToolMotion::bend(const Place& from, const Place& to, double acceleration) const {
+double ToolMotion::bend(const ToolFramePoint& from, const ToolFramePoint& to,
+                        double acceleration) const {
   const Eigen::Vector2d line = to.at.head<2>() - from.at.head<2>();
   const Eigen::Vector2d half_way = 0.5 * (to.at.head<2>() + from.at.head<2>());
   const double rho = half_way.norm(), apart = 0.5 * line.norm() + acceleration / 8.0;
@@ -222,10 +224,10 @@ double ToolMotion::bend(const Place& from, const Place& to, double acceleration)
   return cone_.cos_k * slowest * slowest / (rho + apart) - acceleration;
 }
 
-void ToolMotion::look_between(const WorkPoint& point, Part part, const Place& here, double from,
-                              double to, LeastRange& out) const {
+void ToolMotion::look_between(const WorkPoint& point, Part part, const ToolFramePoint& here,
+                              double from, double to, LeastRange& out) const {
   const Step step = step_from(std::min(from, to));
-  const Place there = place(point, part, to);
+  const ToolFramePoint there = in_tool_frame(point, part, to);
   const double most = acceleration(point, here, step), ahead = to - from;
   const double down = ahead * here.slope.dot(velocity(here, step));
   const double up = ahead * there.slope.dot(velocity(there, step));
@@ -233,14 +235,15 @@ void ToolMotion::look_between(const WorkPoint& point, Part part, const Place& he
   if (bent > 0.0 && down >= 0.0) return;
   const double share = down < 0.0 && up > 0.0 ? std::clamp(down / (down - up), 0.05, 0.95) : 0.5;
   const double station = from + share * ahead;
-  const Place middle = place(point, part, station);
+  const ToolFramePoint middle = in_tool_frame(point, part, station);
   if (middle.distance < out.met.value) out.met = {middle.distance, station};
   if (bent > 0.0) {
     const double slope = middle.slope.dot(velocity(middle, step));
     out.low = std::min(out.low, middle.distance - 0.5 * slope * slope / bent);
     return;
   }
-  const auto above = [most](const Place& a, const Place& b, double part_of_block) {
+  const auto above = [most](const ToolFramePoint& a, const ToolFramePoint& b,
+                            double part_of_block) {
     const Eigen::Vector3d way = b.at - a.at;
     return above_tangents(a.distance, a.slope.dot(way), b.distance, b.slope.dot(way)) -
            most * part_of_block * part_of_block / 8.0;
@@ -251,7 +254,7 @@ void ToolMotion::look_between(const WorkPoint& point, Part part, const Place& he
 LeastRange ToolMotion::range(const WorkPoint& point, Part part, const Least& best) const {
   LeastRange out{best.value, best};
   if (between_ == Between::nothing) return out;
-  const Place here = place(point, part, best.station);
+  const ToolFramePoint here = in_tool_frame(point, part, best.station);
   for (const double to : {best.station - 1.0, best.station + 1.0})
     look_between(point, part, here, best.station, to, out);
   return out;

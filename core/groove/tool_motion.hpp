@@ -63,7 +63,7 @@ class ToolMotion {
 
  private:
   /// A point in the tool's frame, its distance and the derivative of that.
-  struct Place {
+  struct ToolFramePoint {
     Eigen::Vector3d at = {};     // across the axis in the section's plane, out of it, along
     Eigen::Vector3d slope = {};  // a subgradient
     double distance = 0.0;
@@ -76,14 +76,16 @@ class ToolMotion {
     double turn = 0.0, x = 0.0, z = 0.0, lean = 0.0;  // rad, mm, mm, rad
   };
 
-  [[nodiscard]] Place place(const WorkPoint& point, Part part, double station) const;
+  [[nodiscard]] ToolFramePoint in_tool_frame(const WorkPoint& point, Part part,
+                                             double station) const;
   [[nodiscard]] Step step_from(double block) const;
-  [[nodiscard]] Eigen::Vector3d velocity(const Place& at, const Step& step) const;
-  [[nodiscard]] double acceleration(const WorkPoint& point, const Place& at_one_end,
+  [[nodiscard]] Eigen::Vector3d velocity(const ToolFramePoint& at, const Step& step) const;
+  [[nodiscard]] double acceleration(const WorkPoint& point, const ToolFramePoint& at_one_end,
                                     const Step& step) const;
-  [[nodiscard]] double bend(const Place& from, const Place& to, double acceleration) const;
-  void look_between(const WorkPoint& point, Part part, const Place& here, double from, double to,
-                    LeastRange& out) const;
+  [[nodiscard]] double bend(const ToolFramePoint& from, const ToolFramePoint& to,
+                            double acceleration) const;
+  void look_between(const WorkPoint& point, Part part, const ToolFramePoint& here, double from,
+                    double to, LeastRange& out) const;
   [[nodiscard]] Least by_golden_section(const WorkPoint& point, Part part, double low) const;
   [[nodiscard]] Least least_solid();
 

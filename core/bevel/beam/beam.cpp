@@ -22,11 +22,11 @@ using beam::Figure;
 using beam::kMargin;
 using beam::Largest;
 using beam::Line;
-using beam::Place;
 using beam::set_slopes;
 using beam::slope_across;
 using beam::slope_along;
 using beam::Surface;
+using beam::SurfacePoint;
 
 constexpr double kPlaces = 2000.0;  // along the cut, in addition to the rows and their middles
 constexpr double kFine = 0.25;      // of half a kerf: across the wall, distance of points
@@ -60,22 +60,22 @@ class Cells {
 
   /// Processes up to kLanes lines of the grid; cells end at each except the very first.
   void line_up(std::span<const GridLine> lines) {
-    std::array<Place, beam::kLanes> ends{};
+    std::array<SurfacePoint, beam::kLanes> ends{};
     std::array<Line, beam::kLanes> across;
     for (std::size_t k = 0; k < lines.size(); ++k)
       ends[k] = {lines[k].row, lines[k].u1, 0.0, grid_.land};
     figure_.surface.across_wall(std::span(ends).first(lines.size()), across);
-    places_.clear();
+    points_.clear();
     on_.clear();
     for (std::size_t k = 0; k < lines.size(); ++k)
       for (std::size_t m = 0; m < size(); ++m) {
-        places_.push_back({ends[k].row, ends[k].u, share(m), grid_.land});
+        points_.push_back({ends[k].row, ends[k].u, share(m), grid_.land});
         on_.push_back(across[k]);
       }
-    here_.resize(places_.size());
-    for (std::size_t k = 0; k < places_.size(); k += beam::kLanes) {
-      const auto n = std::min(beam::kLanes, places_.size() - k);
-      figure_.of(std::span(places_).subspan(k, n), std::span(on_).subspan(k, n),
+    here_.resize(points_.size());
+    for (std::size_t k = 0; k < points_.size(); k += beam::kLanes) {
+      const auto n = std::min(beam::kLanes, points_.size() - k);
+      figure_.of(std::span(points_).subspan(k, n), std::span(on_).subspan(k, n),
                  std::span(here_).subspan(k, n));
     }
     for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -111,9 +111,9 @@ class Cells {
   const Figure& figure_;
   const Grid& grid_;
   const See& see_;
-  std::vector<Slopes> last_;    // of the cells before
-  std::vector<double> before_;  // figures on the line before
-  std::vector<Place> places_;   // on the lines in progress
+  std::vector<Slopes> last_;          // of the cells before
+  std::vector<double> before_;        // figures on the line before
+  std::vector<SurfacePoint> points_;  // on the lines in progress
   std::vector<Line> on_;
   std::vector<double> here_;
 };

@@ -33,13 +33,13 @@ bool neighbours(const Cell& a, const Cell& b) {
 
 }  // namespace
 
-void Figure::operator()(std::span<const Place> at, std::span<double> out) const {
+void Figure::operator()(std::span<const SurfacePoint> at, std::span<double> out) const {
   std::array<Line, kLanes> lines;
   surface.across_wall(at, lines);
   of(at, lines, out);
 }
 
-void Figure::of(std::span<const Place> at, std::span<const Line> lines,
+void Figure::of(std::span<const SurfacePoint> at, std::span<const Line> lines,
                 std::span<double> out) const {
   std::array<Surface::Seen, kLanes> seen;
   surface.seen(at, lines, std::span(seen).first(at.size()));
@@ -149,7 +149,7 @@ void Largest::climb(const Cell& cell) {
   double along = 0.5 * cell.along, across = 0.5 * cell.across;
   for (int step = 0; step < kSteps && along > 0.01 * cell.along; ++step) {
     if (stopped()) return;
-    const std::array<Place, 4> beside{
+    const std::array<SurfacePoint, 4> beside{
         figure_.surface.moved(here.at, along, 0.0), figure_.surface.moved(here.at, -along, 0.0),
         figure_.surface.moved(here.at, 0.0, across), figure_.surface.moved(here.at, 0.0, -across)};
     std::array<double, 4> value{};
@@ -173,14 +173,14 @@ std::array<Cell, 4> Largest::quartered(const Cell& cell) const {
   const bool across = cell.grows_across() > kSteeper * cell.grows_along();
   const std::size_t n = along ? 4 : across ? 1 : 2, m = 4 / n;
   std::array<double, 15> value{};  // of samples, (m + 1) on each line
-  std::array<Place, 6> places{};
+  std::array<SurfacePoint, 6> points{};
   std::array<std::size_t, 6> at{};
   std::size_t news = 0;
-  const auto place = [&](std::size_t i, std::size_t j) {
+  const auto point = [&](std::size_t i, std::size_t j) {
     const double u = static_cast<double>(i) / static_cast<double>(n);
     const double v = static_cast<double>(j) / static_cast<double>(m);
-    return Place{cell.from.row, mixed(cell.from.u, cell.u1, u), mixed(cell.from.v, cell.v1, v),
-                 cell.from.land};
+    return SurfacePoint{cell.from.row, mixed(cell.from.u, cell.u1, u),
+                        mixed(cell.from.v, cell.v1, v), cell.from.land};
   };
   for (std::size_t i = 0; i <= n; ++i)
     for (std::size_t j = 0; j <= m; ++j) {
@@ -188,19 +188,19 @@ std::array<Cell, 4> Largest::quartered(const Cell& cell) const {
       const bool corner = (i == 0 || i == n) && (j == 0 || j == m);
       if (corner) value[k] = cell.value[(i == n ? 2U : 0U) + (j == m ? 1U : 0U)];
       if (corner) continue;
-      places[news] = place(i, j);
+      points[news] = point(i, j);
       at[news++] = k;
     }
   std::array<double, 6> figures{};
-  figure_(std::span(places).first(news), figures);
+  figure_(std::span(points).first(news), figures);
   for (std::size_t k = 0; k < news; ++k) value[at[k]] = figures[k];
   std::array<Cell, 4> out{cell, cell, cell, cell};
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < m; ++j) {
       auto& part = out[i * m + j];
       const auto k = i * (m + 1) + j, next = k + m + 1;
-      part.from = place(i, j);
-      const auto end = place(i + 1, j + 1);
+      part.from = point(i, j);
+      const auto end = point(i + 1, j + 1);
       part.u1 = end.u;
       part.v1 = end.v;
       part.value = {value[k], value[k + 1], value[next], value[next + 1]};

@@ -24,8 +24,9 @@ struct Figure {
   std::vector<double>* by_row = nullptr;  // maximum for each row on whose path the axis is
 
   /// Computes it for up to kLanes points near one another.
-  void operator()(std::span<const Place> at, std::span<double> out) const;
-  void of(std::span<const Place> at, std::span<const Line> lines, std::span<double> out) const;
+  void operator()(std::span<const SurfacePoint> at, std::span<double> out) const;
+  void of(std::span<const SurfacePoint> at, std::span<const Line> lines,
+          std::span<double> out) const;
 
  private:
   void note(const Surface::Seen& seen, double value) const;
@@ -34,12 +35,12 @@ struct Figure {
 /// A point and its figure.
 struct Found {
   double value = -std::numeric_limits<double>::infinity();
-  Place at;
+  SurfacePoint at;
 };
 
 /// A cell of the surface between four points; the corners: at `from`, at v1, at u1, at both.
 struct Cell {
-  Place from;
+  SurfacePoint from;
   double u1, v1;
   std::array<double, 4> value;
   double along, across;                          // mm

@@ -50,13 +50,13 @@ void Surface::see_rows() {
   }
 }
 
-void Surface::seen(std::span<const Place> at, std::span<Seen> out) const {
+void Surface::seen(std::span<const SurfacePoint> at, std::span<Seen> out) const {
   std::array<Line, kLanes> lines;
   across_wall(at, lines);
   seen(at, lines, out);
 }
 
-void Surface::seen(std::span<const Place> at, std::span<const Line> lines,
+void Surface::seen(std::span<const SurfacePoint> at, std::span<const Line> lines,
                    std::span<Seen> out) const {
   EightPoints points;
   std::array<OnWay, kLanes> own;
@@ -83,7 +83,7 @@ void Surface::seen(std::span<const Place> at, std::span<const Line> lines,
   }
 }
 
-double Surface::phase(const Place& at) const {
+double Surface::phase(const SurfacePoint& at) const {
   const auto here = finished({at.row, at.u});
   return mixed(here.phi_inner, here.phi_outer, at.land ? 0.0 : share(at));
 }
@@ -98,7 +98,7 @@ double Surface::length(std::size_t row) const {
       elementary::hypot(cut_.outer * (b.phi_outer - a.phi_outer), b.z_outer - a.z_outer));
 }
 
-Place Surface::moved(Place from, double along, double across) const {
+SurfacePoint Surface::moved(SurfacePoint from, double along, double across) const {
   const double wide = this->across(from.row, from.land);
   if (wide > 0.0) from.v = std::clamp(from.v + across / wide, 0.0, 1.0);
   const double sense = along < 0.0 ? -1.0 : 1.0;
@@ -121,7 +121,7 @@ AcrossWall Surface::finished(const OnWay& at) const {
   return between(cut_.finished, cut_.turn, at.row, at.u);
 }
 
-void Surface::across_wall(std::span<const Place> at, std::span<Line> out) const {
+void Surface::across_wall(std::span<const SurfacePoint> at, std::span<Line> out) const {
   std::array<AcrossWall, kLanes> here;
   for (std::size_t k = 0; k < at.size(); ++k) here[k] = finished({at[k].row, at[k].u});
   placed(cut_, std::span(here).first(at.size()), out);
@@ -134,7 +134,7 @@ void Surface::across_wall(std::span<const Place> at, std::span<Line> out) const 
   }
 }
 
-Vector3d Surface::point(const Place& at, const Line& line) const {
+Vector3d Surface::point(const SurfacePoint& at, const Line& line) const {
   return mixed_points(line.from, line.to, at.land ? at.v : share(at));
 }
 

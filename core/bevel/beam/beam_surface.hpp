@@ -11,7 +11,7 @@
 namespace tubecut::bevel::beam {
 
 /// A point of the finished surface: between rows, across the wall.
-struct Place {
+struct SurfacePoint {
   std::size_t row = 0;
   double u = 0.0, v = 0.0;
   bool land = false;
@@ -30,12 +30,13 @@ class Surface {
     double u;
   };
   /// Computes it for up to kLanes points near one another, each on its line.
-  void seen(std::span<const Place> at, std::span<const Line> lines, std::span<Seen> out) const;
-  void seen(std::span<const Place> at, std::span<Seen> out) const;
+  void seen(std::span<const SurfacePoint> at, std::span<const Line> lines,
+            std::span<Seen> out) const;
+  void seen(std::span<const SurfacePoint> at, std::span<Seen> out) const;
   /// Computes the lines across the wall, or the land, for up to kLanes points.
-  void across_wall(std::span<const Place> at, std::span<Line> out) const;
+  void across_wall(std::span<const SurfacePoint> at, std::span<Line> out) const;
 
-  [[nodiscard]] double phase(const Place& at) const;
+  [[nodiscard]] double phase(const SurfacePoint& at) const;
   [[nodiscard]] std::size_t rows() const { return cut_.finished.size(); }
   [[nodiscard]] double across(std::size_t row, bool land) const {
     return (land ? on_land_ : on_wall_)[row];
@@ -44,13 +45,13 @@ class Surface {
   [[nodiscard]] double step(std::size_t row) const { return steps_[row]; }
   /// Returns the point at these distances along the cut and across the wall from another, mm;
   /// clamped to the edges.
-  [[nodiscard]] Place moved(Place from, double along, double across) const;
+  [[nodiscard]] SurfacePoint moved(SurfacePoint from, double along, double across) const;
 
  private:
   [[nodiscard]] std::size_t next(std::size_t row) const { return row + 1 < rows() ? row + 1 : 0; }
-  [[nodiscard]] double share(const Place& at) const { return mixed(cut_.from, 1.0, at.v); }
+  [[nodiscard]] double share(const SurfacePoint& at) const { return mixed(cut_.from, 1.0, at.v); }
   [[nodiscard]] AcrossWall finished(const OnWay& at) const;
-  [[nodiscard]] Eigen::Vector3d point(const Place& at, const Line& line) const;
+  [[nodiscard]] Eigen::Vector3d point(const SurfacePoint& at, const Line& line) const;
   [[nodiscard]] double length(std::size_t row) const;
   [[nodiscard]] double beyond(const Line& finished, std::size_t row,
                               const Eigen::Vector3d& point) const;

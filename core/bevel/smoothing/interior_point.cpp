@@ -49,7 +49,7 @@ struct alignas(sizeof(Numbers)) Slack {
 /// In each lane a node of its arc. The last arc is padded with nodes of zero length, at which
 /// nothing bends and no slack is small.
 template <class Numbers>
-struct alignas(sizeof(Numbers)) Place {
+struct alignas(sizeof(Numbers)) NodePack {
   Numbers w{}, x{}, v{};      // weight in the area, height above B, slope
   Numbers df{}, dv{}, du{};   // the step: of height, slope and bend
   Numbers lack{};             // of f <= highest: the excess of the slack
@@ -94,9 +94,9 @@ class InteriorPoint {
   TUBECUT_INLINE static Numbers ratio(const Slack<Numbers>& slack) {
     return slack.y * slack.inverse;
   }
-  /// Calls `each` with each slack of a place and its step.
+  /// Calls `each` with each slack of a pack and its step.
   template <class Each>
-  TUBECUT_INLINE void each_slack(Place<Numbers>& at, const Numbers& df, const Numbers& dv,
+  TUBECUT_INLINE void each_slack(NodePack<Numbers>& at, const Numbers& df, const Numbers& dv,
                                  const Numbers& du, const Each& each) const {
     each(at.of[above_b], df);
     each(at.of[rising], Numbers(-dv));
@@ -106,19 +106,19 @@ class InteriorPoint {
     if (limited_) each(at.of[below_limit], Numbers(-df - at.lack));
   }
 
-  /// Calls `each` with every node, its place and its lane there.
+  /// Calls `each` with every node, its pack and its lane there.
   template <class Each>
   void each_node(const Each& each) const {
     Index j = 0;
     for (int k = 0; k < kArcs; ++k)
-      for (std::size_t i = 0; i < places_.size() && j < p_.size(); ++i) each(j++, i, k);
+      for (std::size_t i = 0; i < packs_.size() && j < p_.size(); ++i) each(j++, i, k);
   }
-  /// Returns the value of `of` for each place, by nodes.
+  /// Returns the value of `of` for each pack, by nodes.
   template <class Of>
   [[nodiscard]] Array by_nodes(const Of& of) const {
     Array out(p_.size());
     each_node([&](Index j, std::size_t i, int k) {
-      out[j] = static_cast<double>(lane(of(places_[i]), k));
+      out[j] = static_cast<double>(lane(of(packs_[i]), k));
     });
     return out;
   }
@@ -133,7 +133,7 @@ class InteriorPoint {
   bool limited_, pins_ = false;
   std::size_t groups_ = limited_ ? groups : below_limit;
   RingNewton<Numbers> newton_;
-  std::vector<Place<Numbers>> places_;
+  std::vector<NodePack<Numbers>> packs_;
   double area_ = 0.0, gap_ = 0.0, lack_ = 0.0;
   double far_ = 0.0,
          far_dual_ = 0.0;  // length of the step as a fraction of the path to the next limit
@@ -146,13 +146,13 @@ InteriorPoint<Numbers>::InteriorPoint(const Programme& p, bool limited)
     : p_(p),
       limited_(limited),
       newton_(static_cast<std::size_t>((p.size() + kArcs - 1) / kArcs)),
-      places_(newton_.size()) {}
+      packs_(newton_.size()) {}
 
 /// Starts at a constant above B, with multipliers that balance exactly.
 template <class Numbers>
 void InteriorPoint<Numbers>::begin() {
   constexpr double kWide = 1e60;
-  for (auto& at : places_) {
+  for (auto& at : packs_) {
     at.stiff += kPinned;
     for (auto& slack : at.of) slack.s = Numbers{} + kWide;
   }
@@ -160,7 +160,7 @@ void InteriorPoint<Numbers>::begin() {
   const double level = limited_ ? 0.5 * (top + std::min(p_.highest, top + 1.0)) : top + kStart;
   const double product = kStart * (p_.w * (level - p_.b)).mean();
   each_node([&](Index j, std::size_t i, int k) {
-    auto& at = places_[i];
+    auto& at = packs_[i];
     const double x = level - p_.b[j], room = p_.highest - p_.b[j];
     const double curvature = p_.curvature * p_.w[j], below = std::max(room - x, kNarrow);
     set_lane(newton_.length(i), k, p_.h[j]);
@@ -171,12 +171,12 @@ void InteriorPoint<Numbers>::begin() {
     const double slacks[groups] = {x, p_.slope, p_.slope, curvature, curvature, below};
     for (std::size_t g = 0; g < groups; ++g) set_lane(at.of[g].s, k, slacks[g]);
   });
-  for (auto& at : places_)
+  for (auto& at : packs_)
     for (auto& slack : at.of) slack.y = product / slack.s;
-  each_node([&](Index j, std::size_t i, int k) { set_lane(places_[i].of[above_b].y, k, p_.w[j]); });
+  each_node([&](Index j, std::size_t i, int k) { set_lane(packs_[i].of[above_b].y, k, p_.w[j]); });
   if (limited_) pin();
   Numbers area{}, gap{}, lack{};
-  for (const auto& at : places_) {
+  for (const auto& at : packs_) {
     area += at.w * at.x;
     for (std::size_t g = 0; g < groups_; ++g) gap += at.of[g].s * at.of[g].y;
     lack = larger(lack, at.lack);
@@ -188,7 +188,7 @@ void InteriorPoint<Numbers>::begin() {
 template <class Numbers>
 void InteriorPoint<Numbers>::pin() {
   each_node([&](Index j, std::size_t i, int k) {
-    auto& at = places_[i];
+    auto& at = packs_[i];
     set_lane(at.of[above_b].y, k, lane(at.of[above_b].y, k) + lane(at.of[below_limit].y, k));
     if (!p_.no_room(j)) return;
     pins_ = true;
@@ -212,7 +212,7 @@ void InteriorPoint<Numbers>::measured(const Numbers& area, const Numbers& gap,
 template <class Numbers>
 void InteriorPoint<Numbers>::factor() {
   newton_.factor([&](std::size_t j) {
-    auto& at = places_[j];
+    auto& at = packs_[j];
     for (std::size_t g = 0; g < groups_; ++g) at.of[g].inverse = 1.0 / at.of[g].s;
     typename RingNewton<Numbers>::Weights out{
         ratio(at.of[above_b]), ratio(at.of[rising]) + ratio(at.of[falling]),
@@ -230,14 +230,14 @@ template <class Numbers>
 double InteriorPoint<Numbers>::aim() {
   Numbers near{}, near_dual{}, by_slacks{}, by_both{};
   const auto optimum = [&](std::size_t j) {
-    const auto& at = places_[j];
+    const auto& at = packs_[j];
     typename RingNewton<Numbers>::Terms out{at.w, Numbers{}, Numbers{}};
     if (limited_) out.of_f += ratio(at.of[below_limit]) * at.lack;
     return out;
   };
   newton_.solve(optimum,
                 [&](std::size_t j, const Numbers& df, const Numbers& dv, const Numbers& du) {
-                  each_slack(places_[j], df, dv, du, [&](Slack<Numbers>& slack, const Numbers& ds) {
+                  each_slack(packs_[j], df, dv, du, [&](Slack<Numbers>& slack, const Numbers& ds) {
                     const Numbers share = ds * slack.inverse;
                     slack.dy = ds * (-slack.y - slack.y * share);
                     near = larger(near, Numbers(-share));
@@ -253,7 +253,7 @@ double InteriorPoint<Numbers>::aim() {
   const double after = gap_ + way * moved - way_dual * (gap_ + moved) +
                        way * way_dual * static_cast<double>(sum_of(by_both));
   const double share = std::max(after, 0.0) / gap_;
-  const auto slacks = places_.size() * groups_ * kArcs;
+  const auto slacks = packs_.size() * groups_ * kArcs;
   return share * share * share * gap_ / static_cast<double>(slacks);
 }
 
@@ -262,7 +262,7 @@ template <class Numbers>
 void InteriorPoint<Numbers>::aim_at(double product) {
   Numbers near{}, near_dual{};
   const auto terms = [&](std::size_t j) {
-    auto& at = places_[j];
+    auto& at = packs_[j];
     for (std::size_t g = 0; g < groups_; ++g)
       at.of[g].dy = (at.of[g].dy - product) * at.of[g].inverse;
     typename RingNewton<Numbers>::Terms out{at.w + at.of[above_b].dy,
@@ -272,7 +272,7 @@ void InteriorPoint<Numbers>::aim_at(double product) {
     return out;
   };
   newton_.solve(terms, [&](std::size_t j, const Numbers& df, const Numbers& dv, const Numbers& du) {
-    auto& at = places_[j];
+    auto& at = packs_[j];
     at.df = df;
     at.dv = dv;
     at.du = du;
@@ -293,7 +293,7 @@ void InteriorPoint<Numbers>::go(double kept) {
   const double length = far_ > kept ? kept / far_ : 1.0;
   const double length_dual = far_dual_ > kept ? kept / far_dual_ : 1.0;
   Numbers area{}, gap{}, lack{};
-  for (auto& at : places_) {
+  for (auto& at : packs_) {
     at.x += length * at.df;
     at.v += length * at.dv;
     area += at.w * at.x;
@@ -356,7 +356,7 @@ Array InteriorPoint<Numbers>::heights() const {
   for (Index j = 0; j < n; ++j) open += p_.h[j] * v[j];
   const double tilt = open / static_cast<double>(n);
   Array f(n);
-  double height = (static_cast<double>(lane(places_[0].x, 0)) + p_.b[0]) * p_.unit;
+  double height = (static_cast<double>(lane(packs_[0].x, 0)) + p_.b[0]) * p_.unit;
   for (Index j = 0; j < n; ++j) {
     f[j] = height;
     height += p_.h[j] * (v[j] - tilt) * p_.unit;
