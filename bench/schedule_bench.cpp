@@ -86,7 +86,7 @@ const Stages& stages(bool long_one) {
 }
 
 void share_of_cut(benchmark::State& state, const Stages& s) {
-  const double cut = static_cast<double>(s.plan.places.size()) * s.spec.machine.period;
+  const double cut = static_cast<double>(s.plan.positions.size()) * s.spec.machine.period;
   state.counters["cut_s"] = cut;
   // seconds of an iteration over those of the cut
   state.counters["share"] = benchmark::Counter(
@@ -109,7 +109,7 @@ BENCHMARK(plan)->ArgName("60_s_at_1_ms")->Arg(0)->Arg(1)->Unit(benchmark::kMicro
 
 void sample(benchmark::State& state) {
   const auto& s = stages(state.range(0) != 0);
-  const auto periods = static_cast<std::int64_t>(s.plan.places.size()) - 1;
+  const auto periods = static_cast<std::int64_t>(s.plan.positions.size()) - 1;
   for (auto _ : state)
     benchmark::DoNotOptimize(motion::sampled(s.plan.timing, s.job.course.limits.d, periods));
   share_of_cut(state, s);

@@ -7,7 +7,7 @@
 
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
-#include "core/motion/path/places.hpp"
+#include "core/motion/path/path_positions.hpp"
 #include "core/motion/timing/straight_move.hpp"
 #include "core/torch/tab_width.hpp"
 #include "core/torch/torch_stand.hpp"

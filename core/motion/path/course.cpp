@@ -148,26 +148,26 @@ double way_to(const double* now, std::vector<double>& before) {
 }
 
 /// Calls `see(k, axes, values)` after every sample, including the resting ones after the end; k may
-/// exceed the last place. The values are those of the moving axes, then of `beside`.
+/// exceed the last position. The values are those of the moving axes, then of `beside`.
 template <class See>
-void walk(const Course& course, const std::vector<Place>& places,
+void walk(const Course& course, const std::vector<PathPosition>& positions,
           const std::vector<AxisFunction>& beside, const See& see) {
   std::vector<AxisFunction> functions = moving(course);
   functions.insert(functions.end(), beside.begin(), beside.end());
   ValueCursor cursor(course.path, functions);
   std::vector<Watched> axes = watched(course, cursor.at({}));
-  for (std::size_t k = 0; k < places.size() + kRest && !stops(k); ++k) {
-    const auto& values = cursor.at(places[std::min(k, places.size() - 1)]);
+  for (std::size_t k = 0; k < positions.size() + kRest && !stops(k); ++k) {
+    const auto& values = cursor.at(positions[std::min(k, positions.size() - 1)]);
     for (std::size_t a = 0; a < axes.size(); ++a) axes[a].differences.push(values[a]);
     see(k, axes, values);
   }
 }
 
-/// Records the tip's speed over the period that ends at place `k`.
-void note_tip(const Course& course, const std::vector<Place>& places, std::size_t k, double step,
-              Uses& out) {
+/// Records the tip's speed over the period that ends at position `k`.
+void note_tip(const Course& course, const std::vector<PathPosition>& positions, std::size_t k,
+              double step, Uses& out) {
   const double d = course.path.d, speed = step / course.machine.period;
-  const double start = places[k - 1].u(d), end = places[k].u(d);
+  const double start = positions[k - 1].u(d), end = positions[k].u(d);
   out.tip = std::max(out.tip, speed / course.speed.greatest(start, end));
   if (start >= kEndMargin && end <= course.path.length() - kEndMargin) {
     out.least_tip = std::min(out.least_tip, speed);
@@ -218,7 +218,9 @@ Result<PreparedCut> prepare_cut(const ScheduleSpec& spec) {
 TipCursor::TipCursor(const Course& course)
     : values_(course.path, course.tip), before_(course.tip.size(), 0.0) {}
 
-double TipCursor::step_to(const Place& place) { return way_to(values_.at(place).data(), before_); }
+double TipCursor::step_to(const PathPosition& position) {
+  return way_to(values_.at(position).data(), before_);
+}
 
 double Uses::worst() const {
   double most = tip;
@@ -228,15 +230,15 @@ double Uses::worst() const {
   return most;
 }
 
-Uses uses(const Course& course, const std::vector<Place>& places, bool jerk) {
+Uses uses(const Course& course, const std::vector<PathPosition>& positions, bool jerk) {
   Uses out;
   std::vector<Largest> largest(course.limits.axes.size());
   std::vector<double> tip(course.tip.size());
-  walk(course, places, course.tip,
+  walk(course, positions, course.tip,
        [&](std::size_t k, const std::vector<Watched>& axes, const std::vector<double>& values) {
          for (std::size_t a = 0; a < axes.size(); ++a) largest[a].note(axes[a].differences);
          const double step = way_to(values.data() + axes.size(), tip);
-         if (k > 0 && k < places.size()) note_tip(course, places, k, step, out);
+         if (k > 0 && k < positions.size()) note_tip(course, positions, k, step, out);
        });
   const std::vector<Watched> axes = watched(course, std::vector<double>(largest.size()));
   for (std::size_t a = 0; a < axes.size(); ++a) {
@@ -245,13 +247,14 @@ Uses uses(const Course& course, const std::vector<Place>& places, bool jerk) {
   return out;
 }
 
-Ratios ratios(const Course& course, const std::vector<Place>& places) {
-  Ratios out{std::vector<double>(places.size(), 0.0), std::vector<double>(places.size(), 0.0)};
+Ratios ratios(const Course& course, const std::vector<PathPosition>& positions) {
+  Ratios out{std::vector<double>(positions.size(), 0.0),
+             std::vector<double>(positions.size(), 0.0)};
   const auto note_at = [&](std::vector<double>& ratio, std::size_t k, double value) {
-    double& at = ratio[std::min(k, places.size() - 1)];
+    double& at = ratio[std::min(k, positions.size() - 1)];
     at = std::max(at, value);
   };
-  walk(course, places, {},
+  walk(course, positions, {},
        [&](std::size_t k, const std::vector<Watched>& axes, const std::vector<double>&) {
          double acceleration = 0.0, jerk = 0.0;
          for (const Watched& w : axes) {

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "core/motion/path/path_limits.hpp"
-#include "core/motion/path/places.hpp"
+#include "core/motion/path/path_positions.hpp"
 #include "core/motion/schedule/value_cursor.hpp"
 
 namespace tubecut::motion {
 
-/// The limits and functions of a plan, and the map from its places to axis values.
+/// The limits and functions of a plan, and the map from its positions to axis values.
 struct Course {
   Path path = {};
   std::vector<AxisFunction> axes = {};  // all axes of the machine
@@ -19,12 +19,12 @@ struct Course {
   Machine machine = {};
 };
 
-/// The path of the tip from one place to the next.
+/// The path of the tip from one position to the next.
 class TipCursor {
  public:
   explicit TipCursor(const Course& course);
-  /// Returns the distance in mm from the previous place; 0 for the first.
-  double step_to(const Place& place);
+  /// Returns the distance in mm from the previous position; 0 for the first.
+  double step_to(const PathPosition& position);
 
  private:
   ValueCursor values_;
@@ -67,17 +67,19 @@ struct Uses {
   [[nodiscard]] double worst() const;
 };
 
-/// Compares differences of the axis values at the places, with three resting samples before and
+/// Compares differences of the axis values at the positions, with three resting samples before and
 /// after, with the limits. Permits the rounding of the axis values themselves.
 ///
 /// Source  docs/theory/pulse-schedules.md, section 6.6.
-[[nodiscard]] Uses uses(const Course& course, const std::vector<Place>& places, bool jerk);
+[[nodiscard]] Uses uses(const Course& course, const std::vector<PathPosition>& positions,
+                        bool jerk);
 
-/// Ratios of differences to their limits at every place, the worst of the axes; 0 if all hold.
+/// Ratios of differences to their limits at every position, the worst of the axes; 0 if all hold.
 struct Ratios {
-  std::vector<double> acceleration = {};  // of the second difference with this place as its middle
-  std::vector<double> jerk = {};          // of the third differences with this place in the middle
+  std::vector<double> acceleration =
+      {};                         // of the second difference with this position as its middle
+  std::vector<double> jerk = {};  // of the third differences with this position in the middle
 };
-[[nodiscard]] Ratios ratios(const Course& course, const std::vector<Place>& places);
+[[nodiscard]] Ratios ratios(const Course& course, const std::vector<PathPosition>& positions);
 
 }  // namespace tubecut::motion

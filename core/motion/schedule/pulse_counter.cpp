@@ -41,9 +41,9 @@ void PulseCounter::rest(std::int64_t periods) {
 
 void PulseCounter::follow(const PlannedCut& cut) {
   ValueCursor cursor(cut.job.course.path, cut.job.course.axes);
-  const auto& places = cut.plan.places;
-  expect(static_cast<std::int64_t>(places.size()) - 1);
-  for (std::size_t k = 1; k < places.size() && !stops(k); ++k) step(cursor.at(places[k]));
+  const auto& positions = cut.plan.positions;
+  expect(static_cast<std::int64_t>(positions.size()) - 1);
+  for (std::size_t k = 1; k < positions.size() && !stops(k); ++k) step(cursor.at(positions[k]));
 }
 
 AxisSums PulseCounter::sums_from(std::int64_t period) const {

@@ -19,13 +19,13 @@ constexpr double kSlow = 0.5;  // of the requested speed
 
 /// Returns the largest fraction of its limits that an axis uses over samples `from`..`to`; roots
 /// make the three kinds comparable as speeds.
-double share(const Course& course, const std::vector<Place>& places, std::size_t axis,
+double share(const Course& course, const std::vector<PathPosition>& positions, std::size_t axis,
              std::size_t from, std::size_t to) {
   const Axis& record = course.machine.axes[axis];
   const double t = course.machine.period;
   ValueCursor cursor(course.path, {&course.axes[axis], 1});
   const auto at = [&](std::size_t k) {
-    return cursor.at(places[std::min(k, places.size() - 1)]).front();
+    return cursor.at(positions[std::min(k, positions.size() - 1)]).front();
   };
   double speed = 0.0, acceleration = 0.0, jerk = 0.0;
   double a = at(from), b = at(from + 1), c = at(from + 2);
@@ -44,12 +44,12 @@ double share(const Course& course, const std::vector<Place>& places, std::size_t
   return std::max({v, root, cube});
 }
 
-std::string limiting_axis(const Course& course, const std::vector<Place>& places, std::size_t from,
-                          std::size_t to) {
+std::string limiting_axis(const Course& course, const std::vector<PathPosition>& positions,
+                          std::size_t from, std::size_t to) {
   std::string name;
   double most = -1.0;
   for (const AxisBounds& bounds : course.limits.axes) {
-    const double used = share(course, places, bounds.axis, from, to);
+    const double used = share(course, positions, bounds.axis, from, to);
     if (used > most) name = course.machine.axes[bounds.axis].name;
     most = std::max(most, used);
   }
@@ -130,7 +130,8 @@ double closing_residual(const ScheduleSpec& spec) {
 
 }  // namespace
 
-std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place>& places) {
+std::vector<SlowZone> slow_zones(const PreparedCut& job,
+                                 const std::vector<PathPosition>& positions) {
   const Course& course = job.course;
   const double d = course.path.d, end = course.path.length() - kReportMargin;
   // If a lead meets the cut at a corner, the cut is just starting: a tab is broken off there.
@@ -140,10 +141,10 @@ std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place
   std::vector<SlowZone> out;
   bool inside = false;
   TipCursor tip(course);
-  tip.step_to(places[0]);
-  for (std::size_t k = 0; k + 1 < places.size() && !stops(k); ++k) {
-    const double from = places[k].u(d), to = places[k + 1].u(d);
-    const double speed = tip.step_to(places[k + 1]) / course.machine.period;
+  tip.step_to(positions[0]);
+  for (std::size_t k = 0; k + 1 < positions.size() && !stops(k); ++k) {
+    const double from = positions[k].u(d), to = positions[k + 1].u(d);
+    const double speed = tip.step_to(positions[k + 1]) / course.machine.period;
     const bool slow = from >= begin && to <= end && speed < kSlow * course.speed.least(from, to);
     const auto period = static_cast<std::int64_t>(k);
     if (slow && !inside) {
@@ -157,9 +158,9 @@ std::vector<SlowZone> slow_zones(const PreparedCut& job, const std::vector<Place
   for (SlowZone& zone : out) {
     if (stopped()) break;
     const auto from = static_cast<std::size_t>(zone.from), to = static_cast<std::size_t>(zone.to);
-    zone.phi_from = course.path.at(places[from].interval, places[from].offset)[0];
-    zone.phi_to = course.path.at(places[to + 1].interval, places[to + 1].offset)[0];
-    zone.axis = limiting_axis(course, places, from, to);
+    zone.phi_from = course.path.at(positions[from].interval, positions[from].offset)[0];
+    zone.phi_to = course.path.at(positions[to + 1].interval, positions[to + 1].offset)[0];
+    zone.axis = limiting_axis(course, positions, from, to);
   }
   return out;
 }
@@ -197,7 +198,7 @@ Comparison comparison(const PreparedCut& job) {
 Report report(const ScheduleSpec& spec, const PreparedCut& job, const Plan& plan) {
   const Path& path = job.course.path;
   Report out;
-  out.time = static_cast<double>(plan.places.size() - 1) * spec.machine.period;
+  out.time = static_cast<double>(plan.positions.size() - 1) * spec.machine.period;
   out.ideal = job.ideal;
   out.no_jerk = plan.no_jerk;
   out.optimality = out.time / plan.least;
@@ -214,7 +215,7 @@ Report report(const ScheduleSpec& spec, const PreparedCut& job, const Plan& plan
   out.closing_residual = closing_residual(spec);
   out.max_use = largest_uses(job.course, plan, spec.motion.jerk);
   const double fastest = job.course.speed.greatest(0.0, path.length());
-  if (plan.uses.least_tip < kSlow * fastest) out.slow = slow_zones(job, plan.places);
+  if (plan.uses.least_tip < kSlow * fastest) out.slow = slow_zones(job, plan.positions);
   out.slow_time = 0.0;
   for (const SlowZone& zone : out.slow) {
     out.slow_time += static_cast<double>(zone.to - zone.from + 1) * spec.machine.period;

@@ -11,7 +11,7 @@
 namespace tubecut::motion {
 
 struct Path;
-struct Place;
+struct PathPosition;
 struct Plan;
 struct PreparedCut;
 struct Program;
@@ -107,12 +107,12 @@ struct Report {
 ///
 /// Source  docs/theory/pulse-schedules.md, section 4.3.
 [[nodiscard]] std::vector<SlowZone> slow_zones(const PreparedCut& job,
-                                               const std::vector<Place>& places);
+                                               const std::vector<PathPosition>& positions);
 
 /// Computes it for the cut between lead-in and lead-out. Empty for axis columns, because they have
 /// no wall, and when cancelled.
 ///
-/// Accuracy  taken at the path's knots and three places between, 0.025 mm of generalised length
+/// Accuracy  taken at the path's knots and three positions between, 0.025 mm of generalised length
 ///           from each other.
 /// Cost      linear in the knots.
 [[nodiscard]] std::optional<EdgeDeviation> edge_deviation(const ScheduleSpec& spec,

@@ -24,19 +24,20 @@ std::int64_t closure(const Axis& axis, const AxisFunction& f, const Course& cour
   return total - rounded(ideal_pulses(axis, end, start));
 }
 
-/// Computes the counts of the moving axes in one walk over the places.
-void count(const Course& course, const std::vector<Place>& places, std::vector<AxisPulses>& out) {
+/// Computes the counts of the moving axes in one walk over the positions.
+void count(const Course& course, const std::vector<PathPosition>& positions,
+           std::vector<AxisPulses>& out) {
   std::vector<AxisFunction> functions;
   std::vector<std::size_t> moving;
   for (const AxisBounds& bounds : course.limits.axes) {
     moving.push_back(bounds.axis);
     functions.push_back(course.axes[bounds.axis]);
-    out[bounds.axis].counts.reserve(places.size() - 1);
+    out[bounds.axis].counts.reserve(positions.size() - 1);
   }
   ValueCursor cursor(course.path, functions);
   std::vector<std::int64_t> before(moving.size(), 0);
-  for (std::size_t k = 0; k < places.size() && !stops(k); ++k) {
-    const auto& values = cursor.at(places[k]);
+  for (std::size_t k = 0; k < positions.size() && !stops(k); ++k) {
+    const auto& values = cursor.at(positions[k]);
     for (std::size_t i = 0; i < moving.size(); ++i) {
       AxisPulses& axis = out[moving[i]];
       const std::int64_t now =
@@ -60,19 +61,20 @@ void sum_up(const PreparedCut& job, std::size_t a, AxisPulses& out) {
 }
 
 /// Returns the first sample at or after a point of the program.
-std::int64_t passes(const Course& course, const std::vector<Place>& places, std::size_t point) {
+std::int64_t passes(const Course& course, const std::vector<PathPosition>& positions,
+                    std::size_t point) {
   const double mark = course.path.at_point[point] - 1e-9;
-  const auto at = std::ranges::lower_bound(places, mark, {},
-                                           [&](const Place& p) { return p.u(course.path.d); });
-  return at - places.begin();
+  const auto at = std::ranges::lower_bound(
+      positions, mark, {}, [&](const PathPosition& p) { return p.u(course.path.d); });
+  return at - positions.begin();
 }
 
 std::vector<Event> events(const PreparedCut& job, const Plan& plan) {
-  const auto periods = static_cast<std::int64_t>(plan.places.size()) - 1;
+  const auto periods = static_cast<std::int64_t>(plan.positions.size()) - 1;
   return {{0, EventKind::pierce},
           {0, EventKind::torch_on},
-          {passes(job.course, plan.places, job.program.cut_first), EventKind::cut_start},
-          {std::min(periods, passes(job.course, plan.places, job.program.cut_last)),
+          {passes(job.course, plan.positions, job.program.cut_first), EventKind::cut_start},
+          {std::min(periods, passes(job.course, plan.positions, job.program.cut_last)),
            EventKind::cut_end},
           {periods, EventKind::torch_off}};
 }
@@ -120,7 +122,7 @@ std::vector<AxisPulses> pulses(const PreparedCut& job, const Plan& plan) {
     out.push_back(
         {.name = axis.name, .unit = axis.unit, .start = course.axes[a].at(course.path.at(0, 0.0))});
   }
-  count(course, plan.places, out);
+  count(course, plan.positions, out);
   for (std::size_t a = 0; a < out.size() && !stopped(); ++a) sum_up(job, a, out[a]);
   return out;
 }
@@ -143,7 +145,7 @@ Result<Schedule> schedule(const ScheduleSpec& spec) {
   TRY(auto cut, plan_cut(spec));
   Schedule out;
   out.period = spec.machine.period;
-  out.periods = static_cast<std::int64_t>(cut.plan.places.size()) - 1;
+  out.periods = static_cast<std::int64_t>(cut.plan.positions.size()) - 1;
   out.axes = pulses(cut.job, cut.plan);
   out.events = std::move(cut.events);
   out.report = std::move(cut.report);

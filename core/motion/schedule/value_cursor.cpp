@@ -78,14 +78,15 @@ void ValueCursor::add_turns(double w) {
     values_[q.function] += q.across * (y * cos - x * sin) + q.out * (x * cos + y * sin);
 }
 
-const std::vector<double>& ValueCursor::at(const Place& place) {
-  const double w = place.offset;
-  if (place.interval + 1 == path_.intervals() && w >= path_.d) {  // exactly the last control point
-    const Coordinates x = path_.at(place.interval, w);
+const std::vector<double>& ValueCursor::at(const PathPosition& position) {
+  const double w = position.offset;
+  if (position.interval + 1 == path_.intervals() &&
+      w >= path_.d) {  // exactly the last control point
+    const Coordinates x = path_.at(position.interval, w);
     for (std::size_t f = 0; f < functions_.size(); ++f) values_[f] = functions_[f].at(x);
     return values_;
   }
-  if (place.interval != interval_) enter(place.interval);
+  if (position.interval != interval_) enter(position.interval);
   for (std::size_t f = 0; f < functions_.size(); ++f) {
     const Cubic& q = linear_[f];
     values_[f] = q[0] + w * (q[1] + w * (q[2] + w * q[3]));

@@ -7,11 +7,11 @@
 
 #include "core/base/elementary.hpp"
 #include "core/motion/path/path.hpp"
-#include "core/motion/path/places.hpp"
+#include "core/motion/path/path_positions.hpp"
 
 namespace tubecut::motion {
 
-/// Computes functions of a path's coordinates at a sequence of places. Within an interval the
+/// Computes functions of a path's coordinates at a sequence of positions. Within an interval the
 /// coordinates are cubics, so the linear part of every function is one too, and the sine and cosine
 /// of B, and of the angle of a section's normal, are rotated from those at its start.
 ///
@@ -23,7 +23,7 @@ class ValueCursor {
   ValueCursor(const Path& path, std::span<const AxisFunction> functions);
 
   /// Returns the values in the functions' order; they are valid until the next call.
-  const std::vector<double>& at(const Place& place);
+  const std::vector<double>& at(const PathPosition& position);
 
  private:
   using Cubic = std::array<double, 4>;  // by rising powers of the offset

@@ -18,7 +18,7 @@ constexpr double kJerkRelief = 0.97;
 
 // For the ladder of filters.
 constexpr int kProvenAfter =
-    7;  // passes; after them a violated place goes directly to the proven rows
+    7;  // passes; after them a violated position goes directly to the proven rows
 constexpr int kMostPasses = 40;                // after them, every interval does
 constexpr double kNothingToGain = 1.0 + 1e-4;  // of the optimum without jerk limits
 
@@ -56,10 +56,10 @@ double best_octave(const Course& course, const std::function<double(double)>& ti
 }
 
 /// Calls `lower(i)` for every interval that the filter window of sample `k` can reach.
-void for_reach_of(const std::vector<Place>& places, std::size_t k, std::size_t reach,
+void for_reach_of(const std::vector<PathPosition>& positions, std::size_t k, std::size_t reach,
                   std::size_t intervals, const std::function<void(std::size_t)>& lower) {
-  const std::size_t from = places[k < reach ? 0 : k - reach].interval;
-  const std::size_t to = places[std::min(places.size() - 1, k + reach)].interval;
+  const std::size_t from = positions[k < reach ? 0 : k - reach].interval;
+  const std::size_t to = positions[std::min(positions.size() - 1, k + reach)].interval;
   for (std::size_t i = from == 0 ? 0 : from - 1; i <= std::min(intervals - 1, to + 1); ++i) {
     lower(i);
   }
@@ -126,24 +126,24 @@ class LadderSearch {
       const bool proven = std::ranges::all_of(optimism, [](double o) { return o <= 1.0; });
       if (timing.time >= bound || proven || stopped()) return timing;
       const auto count = static_cast<std::int64_t>(periods_of(timing.time, period()));
-      const std::vector<Place> places = sampled(timing, course_.limits.d, count);
-      const std::vector<double> ratio = ratios(course_, places).jerk;
+      const std::vector<PathPosition> positions = sampled(timing, course_.limits.d, count);
+      const std::vector<double> ratio = ratios(course_, positions).jerk;
       if (*std::ranges::max_element(ratio) <= kAccepted) return timing;
       if (pass >= kMostPasses) {
         std::ranges::fill(optimism, 1.0);
       } else {
-        lower(optimism, places, ratio, filter, pass >= kProvenAfter);
+        lower(optimism, positions, ratio, filter, pass >= kProvenAfter);
       }
     }
   }
 
-  void lower(Optimism& optimism, const std::vector<Place>& places, const std::vector<double>& ratio,
-             double filter, bool to_proven) const {
+  void lower(Optimism& optimism, const std::vector<PathPosition>& positions,
+             const std::vector<double>& ratio, double filter, bool to_proven) const {
     const auto reach = static_cast<std::size_t>(std::ceil(filter / period())) + 3;
     const Optimism before = optimism;
     for (std::size_t k = 0; k < ratio.size() && !stops(k); ++k) {
       if (ratio[k] <= kAccepted) continue;
-      for_reach_of(places, k, reach, optimism.size(), [&](std::size_t i) {
+      for_reach_of(positions, k, reach, optimism.size(), [&](std::size_t i) {
         const double next = to_proven ? 1.0 : std::max(1.0, kJerkRelief * before[i] / ratio[k]);
         optimism[i] = std::min(optimism[i], next);
       });
@@ -211,23 +211,23 @@ class SignedSearch {
       Timing timing = profiles_.by_signs(rows_, filter, optimism, kFullRounds);
       if (timing.time >= bound || stopped()) break;
       const auto count = static_cast<std::int64_t>(periods_of(timing.time, period()));
-      const std::vector<Place> places = sampled(timing, course_.limits.d, count);
-      if (!lower(optimism, places, ratios(course_, places), filter)) return timing;
+      const std::vector<PathPosition> positions = sampled(timing, course_.limits.d, count);
+      if (!lower(optimism, positions, ratios(course_, positions), filter)) return timing;
     }
     return {{}, filter, 1e300};
   }
 
   /// Returns false when nothing had to be lowered.
-  bool lower(Optimism& optimism, const std::vector<Place>& places, const Ratios& ratio,
+  bool lower(Optimism& optimism, const std::vector<PathPosition>& positions, const Ratios& ratio,
              double filter) {
     const auto reach = static_cast<std::size_t>(std::ceil(filter / period())) + 3;
     const std::vector<double> optimism_before = optimism, share_before = rows_.share;
     bool lowered = false;
-    for (std::size_t k = 0; k < places.size() && !stops(k); ++k) {
+    for (std::size_t k = 0; k < positions.size() && !stops(k); ++k) {
       const double jerk = ratio.jerk[k], acceleration = ratio.acceleration[k];
       if (jerk <= kAccepted && acceleration <= kAccepted) continue;
       lowered = true;
-      for_reach_of(places, k, reach, intervals(), [&](std::size_t i) {
+      for_reach_of(positions, k, reach, intervals(), [&](std::size_t i) {
         if (jerk > kAccepted) {
           const double next = std::max(kLeast, kJerkRelief * optimism_before[i] / jerk);
           optimism[i] = std::min(optimism[i], next);
@@ -265,8 +265,8 @@ Result<void> settle(Plan& out, const Course& course, const PlanOptions& options,
     const double periods = periods_of(out.timing.time * out.stretch, course.machine.period);
     if (!(periods <= static_cast<double>(options.max_periods)))
       return too_many_periods(periods, options.max_periods);
-    out.places = sampled(out.timing, course.limits.d, static_cast<std::int64_t>(periods));
-    out.uses = uses(course, out.places, jerk);
+    out.positions = sampled(out.timing, course.limits.d, static_cast<std::int64_t>(periods));
+    out.uses = uses(course, out.positions, jerk);
     if (stopped()) return fail({.code = ErrorCode::cancelled});
     const double worst = out.uses.worst();
     if (worst <= kLastCheck) return {};

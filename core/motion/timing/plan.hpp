@@ -22,7 +22,7 @@ struct Plan {
   double no_jerk = 0.0;  // s
   double proven = 0.0;   // s, of the proven mode
   double stretch = 1.0;
-  std::vector<Place> places = {};
+  std::vector<PathPosition> positions = {};
   Uses uses = {};
 };
 

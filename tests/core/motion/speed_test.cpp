@@ -46,8 +46,8 @@ TEST(SpeedTables, AreKeptAtEverySample) {
     return y0 + (beam - x0) / (x1 - x0) * (y1 - y0);
   };
   double fastest = 0.0;
-  for (std::size_t k = 1; k < timed->places.size(); ++k) {
-    const Place &a = timed->places[k - 1], &b = timed->places[k];
+  for (std::size_t k = 1; k < timed->positions.size(); ++k) {
+    const PathPosition &a = timed->positions[k - 1], &b = timed->positions[k];
     const auto x = job->course.path.at(a.interval, a.offset),
                y = job->course.path.at(b.interval, b.offset);
     const double speed = std::hypot(35.0 * (y[0] - x[0]), y[1] - x[1]) / spec.machine.period;

@@ -8,8 +8,8 @@
 
 namespace tubecut::motion {
 
-/// A place of the path: `offset` mm after knot `interval`.
-struct Place {
+/// A position on the path: `offset` mm after knot `interval`.
+struct PathPosition {
   std::uint32_t interval = 0;
   double offset = 0.0;
 
@@ -29,6 +29,7 @@ struct Place {
 ///           distance that the window spans.
 /// Cost      one pass over knots and periods, for any filter.
 /// Source    docs/theory/pulse-schedules.md, section 6.3.
-[[nodiscard]] std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods);
+[[nodiscard]] std::vector<PathPosition> sampled(const Timing& timing, double d,
+                                                std::int64_t periods);
 
 }  // namespace tubecut::motion

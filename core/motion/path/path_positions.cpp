@@ -1,4 +1,4 @@
-#include "core/motion/path/places.hpp"
+#include "core/motion/path/path_positions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -87,10 +87,10 @@ class Averaged {
   Averaged(const Unfiltered& u, double d, double filter, Ticks filter_ticks)
       : u_(u), d_(d), filter_(filter), filter_ticks_(filter_ticks) {}
 
-  Place at(Ticks t) {
+  PathPosition at(Ticks t) {
     if (filter_ticks_ == 0) {
       while (u_.behind(first_, t)) ++first_;
-      return place(u_.way(first_, u_.since(first_, std::min(t, u_.end()))));
+      return position(u_.way(first_, u_.since(first_, std::min(t, u_.end()))));
     }
     const Ticks start = std::clamp(t - filter_ticks_, Ticks{0}, u_.end());
     const Ticks stop = std::min(t, u_.end());
@@ -101,7 +101,7 @@ class Averaged {
     sum += u_.since(u_.intervals(), std::max(t, u_.end())) * d_ *
            static_cast<double>(u_.intervals() - first_);
     // Before the start u is 0, which is also the window's first knot: nothing to add.
-    return place(sum / filter_);
+    return position(sum / filter_);
   }
 
  private:
@@ -131,7 +131,7 @@ class Averaged {
   }
 
   /// Splits the distance since the first knot into interval and offset.
-  [[nodiscard]] Place place(double way) const {
+  [[nodiscard]] PathPosition position(double way) const {
     const auto whole = static_cast<std::int64_t>(std::max(0.0, way / d_));
     const std::size_t i = std::min(first_ + static_cast<std::size_t>(whole), u_.intervals() - 1);
     const double offset = std::clamp(way - d_ * static_cast<double>(i - first_), 0.0, d_);
@@ -147,7 +147,7 @@ class Averaged {
   double ahead_ = 0.0;                  // from the pivot to the last knot, of u less u at the pivot
 };
 
-bool before(const Place& a, const Place& b) {
+bool before(const PathPosition& a, const PathPosition& b) {
   return a.interval < b.interval || (a.interval == b.interval && a.offset < b.offset);
 }
 
@@ -165,14 +165,14 @@ tl::unexpected<Error> too_many_periods(double periods, std::int64_t most) {
                .unit = "periods"});
 }
 
-std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods) {
+std::vector<PathPosition> sampled(const Timing& timing, double d, std::int64_t periods) {
   const Clock clock(duration(timing.x, d) + timing.filter);
   const Unfiltered u(timing.x, d, clock);
   const Ticks filter = clock.ticks(timing.filter), total = u.end() + filter;
   Averaged average(u, d, timing.filter, filter);
-  std::vector<Place> places;
-  places.reserve(static_cast<std::size_t>(periods) + 1);
-  places.push_back({0, 0.0});
+  std::vector<PathPosition> positions;
+  positions.reserve(static_cast<std::size_t>(periods) + 1);
+  positions.push_back({0, 0.0});
   const Ticks step = total / periods, over = total % periods;
   Ticks t = 0, rest = 0;  // t + rest / periods is the period's end
   for (std::int64_t k = 1; k < periods && !stops(static_cast<std::size_t>(k)); ++k) {
@@ -182,11 +182,11 @@ std::vector<Place> sampled(const Timing& timing, double d, std::int64_t periods)
       rest -= periods;
       ++t;
     }
-    const Place next = average.at(t);
-    places.push_back(before(next, places.back()) ? places.back() : next);
+    const PathPosition next = average.at(t);
+    positions.push_back(before(next, positions.back()) ? positions.back() : next);
   }
-  places.push_back({static_cast<std::uint32_t>(u.intervals() - 1), d});
-  return places;
+  positions.push_back({static_cast<std::uint32_t>(u.intervals() - 1), d});
+  return positions;
 }
 
 }  // namespace tubecut::motion
