@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using Place = WallCurve::Place;
+using RowPosition = WallCurve::RowPosition;
 
 constexpr double kApart = 3e-4;  // mm along a cut: nearer places are one
 /// If few rows are corners, a corner is a vertex of both edges, some 0.6 kB; else it is within
@@ -29,7 +29,7 @@ using Use = std::pair<std::size_t, bool>;
 
 /// A point of a cut at which some or all of its edges have a vertex.
 struct Station {
-  Place place;
+  RowPosition position;
   double along = 0.0;
   std::vector<bool> vertex;                              // of each edge
   bool across = false;                                   // the wall is parted here by a line
@@ -122,7 +122,7 @@ void turn(TubeSolid::Loop& loop) {
 }
 
 void Builder::add_plane(const TubeCut& cut, double z) {
-  const bool start = cut.place == TubeCut::Place::start;
+  const bool start = cut.kind == TubeCut::Kind::start;
   TubeSolid::Face face{
       .name = cut.name, .surface = TubeSolid::Plane{z}, .same = !start, .cut = true, .loops = {}};
   for (const std::size_t side : {1U, 0U}) {
@@ -147,7 +147,7 @@ void Builder::add_plane(const TubeCut& cut, double z) {
 void part_across(const WallCurve& curve, std::vector<Station>& out) {
   for (int part = 0; part < 2; ++part) {
     double best = -1.0;
-    Place place;
+    RowPosition position;
     for (std::size_t i = 0; i < curve.rows(); ++i) {
       double clear = curve.around();
       for (const auto& other : out) {
@@ -156,32 +156,33 @@ void part_across(const WallCurve& curve, std::vector<Station>& out) {
       }
       if (clear <= best) continue;
       best = clear;
-      place = {i, 0.0};
+      position = {i, 0.0};
     }
-    out.push_back({place, curve.along(place), std::vector<bool>(curve.edges(), true), true, {}});
+    out.push_back(
+        {position, curve.along(position), std::vector<bool>(curve.edges(), true), true, {}});
   }
 }
 
 /// Returns the station at a point, or a new one.
-Station& station_at(const WallCurve& curve, const Place& place, bool across,
+Station& station_at(const WallCurve& curve, const RowPosition& position, bool across,
                     std::vector<Station>& out) {
-  const double along = curve.along(place);
+  const double along = curve.along(position);
   const auto known = std::ranges::find_if(out, [&](const Station& s) {
     const double d = std::abs(s.along - along);
     return std::min(d, curve.around() - d) <= kApart;
   });
   if (known != out.end()) return *known;
-  return out.emplace_back(place, along, std::vector<bool>(curve.edges(), across), across,
+  return out.emplace_back(position, along, std::vector<bool>(curve.edges(), across), across,
                           decltype(Station::met){});
 }
 
 std::vector<Station> Builder::stations(const TubeCut& cut, const WallCurve& curve) const {
   std::vector<Station> out;
-  const bool hole = cut.place == TubeCut::Place::hole;
+  const bool hole = cut.kind == TubeCut::Kind::hole;
   for (const std::size_t seam : {0U, 1U})
     for (const std::size_t k : {std::size_t{0}, curve.edges() - 1})
-      for (const auto& place : curve.crossings(k, seams_[seam].phi)) {
-        auto& station = station_at(curve, place, !hole, out);
+      for (const auto& position : curve.crossings(k, seams_[seam].phi)) {
+        auto& station = station_at(curve, position, !hole, out);
         station.vertex[k] = true;
         station.met.emplace_back(seam, k);
       }
@@ -200,7 +201,7 @@ std::vector<Station> Builder::stations(const TubeCut& cut, const WallCurve& curv
 
 /// Whether a cut's rows run round the tube's kept wall against the clock, seen from outside.
 bool against_the_clock(const TubeCut& cut, const WallCurve& curve) {
-  if (cut.place != TubeCut::Place::hole) return cut.place == TubeCut::Place::start;
+  if (cut.kind != TubeCut::Kind::hole) return cut.kind == TubeCut::Kind::start;
   double area = 0.0;
   for (std::size_t i = 0; i < curve.rows(); ++i) {
     const Vector2d a = curve.at(curve.edges() - 1, {i, 0.0});
@@ -218,9 +219,9 @@ void Builder::add_wall(const TubeCut& cut, const WallCurve& curve) {
                 .stations = stations(cut, curve),
                 .at = {},
                 .span = {}};
-  std::vector<Place> places;
-  for (const auto& s : wall.stations) places.push_back(s.place);
-  out_.walls.push_back(curve.spline(places));
+  std::vector<RowPosition> positions;
+  for (const auto& s : wall.stations) positions.push_back(s.position);
+  out_.walls.push_back(curve.spline(positions));
   lay_edges(wall);
   for (std::size_t s = 0; s < wall.stations.size(); ++s)
     for (const auto& [seam, k] : wall.stations[s].met)

@@ -14,8 +14,8 @@ namespace tubecut::api {
 
 /// A cut of a tube: both ends go round it, holes do not.
 struct TubeCut {
-  enum class Place { start, finish, hole };
-  Place place = Place::start;
+  enum class Kind { start, finish, hole };
+  Kind kind = Kind::start;
   std::string name;
   std::variant<double, WallCurve> shape;  // z of a plane square to the axis, or a cut wall
 };

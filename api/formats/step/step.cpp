@@ -26,9 +26,9 @@ WallCurve curve_of(const bevel::CutWall& wall, std::vector<bool> corners, const 
   return WallCurve::smooth(wall, corners);
 }
 
-TubeCut end_cut(TubeCut::Place place, const bevel::TableSpec& spec, const bevel::Table& table,
+TubeCut end_cut(TubeCut::Kind kind, const bevel::TableSpec& spec, const bevel::Table& table,
                 const Caption& caption) {
-  const std::string name(joint::end_name(place == TubeCut::Place::finish));
+  const std::string name(joint::end_name(kind == TubeCut::Kind::finish));
   ask();
   const auto wall = bevel::finished_wall(spec, table);
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -37,8 +37,8 @@ TubeCut end_cut(TubeCut::Place place, const bevel::TableSpec& spec, const bevel:
     low = std::min(low, least);
     high = std::max(high, most);
   }
-  if (high - low <= kFlat) return {place, name, low};
-  return {place, name, curve_of(wall, corners(spec, table), caption)};
+  if (high - low <= kFlat) return {kind, name, low};
+  return {kind, name, curve_of(wall, corners(spec, table), caption)};
 }
 
 TubeCut hole_cut(const joint::Target& tube, const bevel::Hole& hole, std::string name,
@@ -47,7 +47,7 @@ TubeCut hole_cut(const joint::Target& tube, const bevel::Hole& hole, std::string
   const bevel::CutWall wall{.edges = {{tube.inner_radius(), hole.phi_inner, hole.z_inner},
                                       {tube.outer_radius, hole.phi, hole.z}},
                             .turn = 0.0};
-  return {TubeCut::Place::hole, std::move(name), curve_of(wall, {}, caption)};
+  return {TubeCut::Kind::hole, std::move(name), curve_of(wall, {}, caption)};
 }
 
 /// A cut-out's mould by close rows, with a corner at every end of its segments.
@@ -127,8 +127,8 @@ Product product_of(const joint::Target& tube, const std::string& member, const C
 std::string bevel_table_step(const bevel::TableSpec& spec, const bevel::Table& table,
                              const Caption& caption) {
   return print(spec.target,
-               {end_cut(TubeCut::Place::start, spec, table, caption),
-                {TubeCut::Place::finish, "far end", far_end(spec, table)}},
+               {end_cut(TubeCut::Kind::start, spec, table, caption),
+                {TubeCut::Kind::finish, "far end", far_end(spec, table)}},
                caption);
 }
 
@@ -147,16 +147,16 @@ std::string hole_step(const bevel::HoleSpec& spec, const bevel::HoleCut& cut,
     }
     cuts.push_back(hole_cut(tube, hole, hole.far ? "hole, far side" : "hole", caption));
   }
-  cuts.push_back({TubeCut::Place::start, "end", low - tube.outer_radius});
-  cuts.push_back({TubeCut::Place::finish, "end", high + tube.outer_radius});
+  cuts.push_back({TubeCut::Kind::start, "end", low - tube.outer_radius});
+  cuts.push_back({TubeCut::Kind::finish, "end", high + tube.outer_radius});
   return print(tube, cuts, caption);
 }
 
 TubeSolid part_solid(const part::PartSpec& spec, const part::Part& part, const Caption& caption) {
   const auto& tube = spec.target;
   std::vector<TubeCut> cuts{
-      end_cut(TubeCut::Place::start, part.start.spec, part.start.table, caption),
-      end_cut(TubeCut::Place::finish, part.finish.spec, part.finish.table, caption)};
+      end_cut(TubeCut::Kind::start, part.start.spec, part.start.table, caption),
+      end_cut(TubeCut::Kind::finish, part.finish.spec, part.finish.table, caption)};
   std::vector<const bevel::Hole*> kept;
   const bool some_meet = std::ranges::any_of(
       part.warnings, [](const Warning& w) { return w.code == WarningCode::holes_meet; });
@@ -173,7 +173,7 @@ TubeSolid part_solid(const part::PartSpec& spec, const part::Part& part, const C
   const auto& layout = part.cutouts;
   for (std::size_t i = 0; i < layout.instances.size(); ++i) {
     const auto& one = layout.instances[i];
-    cuts.push_back({TubeCut::Place::hole, "cut-out " + cutout_tag(layout, i),
+    cuts.push_back({TubeCut::Kind::hole, "cut-out " + cutout_tag(layout, i),
                     cutout_curve(tube, layout.mould_of(one), one.phi, one.z, caption)});
   }
   return tube_solid(tube.inner_radius(), tube.outer_radius, cuts);

@@ -24,7 +24,7 @@ struct Spread {
 std::vector<Spread> spreads(const std::vector<TubeCut>& cuts) {
   std::vector<Spread> out;
   for (const auto& cut : cuts) {
-    if (cut.place != TubeCut::Place::hole) continue;
+    if (cut.kind != TubeCut::Kind::hole) continue;
     const auto& curve = std::get<WallCurve>(cut.shape);
     for (const std::size_t side : {0U, 1U}) {
       const auto edge = side == 0 ? 0 : curve.edges() - 1;
@@ -46,7 +46,7 @@ std::vector<double> jumps(const std::vector<TubeCut>& cuts) {
   std::vector<double> out;
   for (const auto& cut : cuts) {
     const auto* curve = std::get_if<WallCurve>(&cut.shape);
-    if (curve == nullptr || cut.place == TubeCut::Place::hole) continue;
+    if (curve == nullptr || cut.kind == TubeCut::Kind::hole) continue;
     for (std::size_t i = 0; i + 1 < curve->rows(); ++i) {
       const double phi = curve->at(0, {i, 0.0}).x();
       if (curve->at(0, {i + 1, 0.0}).x() == phi) out.push_back(phi);

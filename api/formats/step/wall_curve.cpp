@@ -222,14 +222,14 @@ void WallCurve::bend_evenly(Edge& edge) const {
   }
 }
 
-double WallCurve::along(const Place& place) const {
-  return along_[place.row] + place.share * length_[place.row];
+double WallCurve::along(const RowPosition& position) const {
+  return along_[position.row] + position.share * length_[position.row];
 }
 
-WallCurve::Passing<Vector2d> WallCurve::pass(const Edge& edge, const Place& place) const {
-  const auto i = place.row;
-  if (place.share == 0.0) return {edge.knot[i], edge.arriving[i], edge.leaving[i]};
-  const double h = length_[i], u = place.share, v = 1.0 - u;
+WallCurve::Passing<Vector2d> WallCurve::pass(const Edge& edge, const RowPosition& position) const {
+  const auto i = position.row;
+  if (position.share == 0.0) return {edge.knot[i], edge.arriving[i], edge.leaving[i]};
+  const double h = length_[i], u = position.share, v = 1.0 - u;
   const Vector2d d = laid_gap(edge, i);
   const Vector2d first = h * edge.leaving[i], last = h * edge.arriving[(i + 1) % rows()];
   const Vector2d rate =
@@ -238,10 +238,11 @@ WallCurve::Passing<Vector2d> WallCurve::pass(const Edge& edge, const Place& plac
           rate};
 }
 
-WallCurve::Node WallCurve::node(const Place& place) const {
-  Node out{.place = place, .corner = place.share == 0.0 && corner_[place.row], .edges = {}};
+WallCurve::Node WallCurve::node(const RowPosition& position) const {
+  Node out{
+      .position = position, .corner = position.share == 0.0 && corner_[position.row], .edges = {}};
   out.edges.reserve(edges_.size());
-  for (const auto& edge : edges_) out.edges.push_back({pass(edge, place), {}});
+  for (const auto& edge : edges_) out.edges.push_back({pass(edge, position), {}});
   return out;
 }
 
@@ -275,19 +276,19 @@ void WallCurve::lay_in_space(std::vector<Node>& nodes) const {
   }
 }
 
-Vector2d WallCurve::at(std::size_t edge, const Place& place) const {
-  return pass(edges_[edge], place).at;
+Vector2d WallCurve::at(std::size_t edge, const RowPosition& position) const {
+  return pass(edges_[edge], position).at;
 }
 
-std::vector<WallCurve::Place> WallCurve::corners() const {
-  std::vector<Place> out;
+std::vector<WallCurve::RowPosition> WallCurve::corners() const {
+  std::vector<RowPosition> out;
   for (std::size_t i = 0; i < rows(); ++i)
     if (corner_[i]) out.push_back({i, 0.0});
   return out;
 }
 
-std::vector<WallCurve::Place> WallCurve::crossings(std::size_t edge, double phi) const {
-  std::vector<Place> out;
+std::vector<WallCurve::RowPosition> WallCurve::crossings(std::size_t edge, double phi) const {
+  std::vector<RowPosition> out;
   const auto& e = edges_[edge];
   for (std::size_t i = 0; i < rows(); ++i) {
     const auto next = (i + 1) % rows();
@@ -303,30 +304,30 @@ std::vector<WallCurve::Place> WallCurve::crossings(std::size_t edge, double phi)
       }
       const bool at_row = low * length_[i] < kKnotDistance,
                  at_next = (1.0 - low) * length_[i] < kKnotDistance;
-      const auto place = at_next ? Place{next, 0.0} : Place{i, at_row ? 0.0 : low};
-      const bool known = std::ranges::any_of(out, [&](const Place& other) {
-        const double d = std::abs(along(place) - along(other));
+      const auto position = at_next ? RowPosition{next, 0.0} : RowPosition{i, at_row ? 0.0 : low};
+      const bool known = std::ranges::any_of(out, [&](const RowPosition& other) {
+        const double d = std::abs(along(position) - along(other));
         return std::min(d, around_ - d) < kKnotDistance;
       });
-      if (!known) out.push_back(place);
+      if (!known) out.push_back(position);
     }
   }
   return out;
 }
 
-std::vector<WallCurve::Node> WallCurve::nodes(const std::vector<Place>& stations) const {
+std::vector<WallCurve::Node> WallCurve::nodes(const std::vector<RowPosition>& stations) const {
   std::vector<Node> out;
   const double origin = along(stations.front());
-  const auto add = [&](const Place& place, bool station, double from) {
-    out.push_back(node(place));
+  const auto add = [&](const RowPosition& position, bool station, double from) {
+    out.push_back(node(position));
     out.back().station = station;
-    out.back().along = along(place) - origin;
+    out.back().along = along(position) - origin;
     if (out.back().along < from) {
       out.back().along += around_;
       out.back().turn = 1.0;
     }
   };
-  for (const auto& place : stations) add(place, true, 0.0);
+  for (const auto& position : stations) add(position, true, 0.0);
   const auto held = [&](double at) {
     const auto after = std::lower_bound(
         out.begin(), out.begin() + static_cast<std::ptrdiff_t>(stations.size()), at - kKnotDistance,
@@ -341,10 +342,10 @@ std::vector<WallCurve::Node> WallCurve::nodes(const std::vector<Place>& stations
     for (const auto& edge : edges_) wide = std::max(wide, std::abs(laid_gap(edge, i).x()));
     const int parts = std::max(1, static_cast<int>(std::ceil(wide / edges_.back().widest)));
     for (int part = 0; part < parts; ++part) {
-      const Place place{i, static_cast<double>(part) / parts};
-      double at = along(place) - origin;
+      const RowPosition position{i, static_cast<double>(part) / parts};
+      double at = along(position) - origin;
       if (at < 0.0) at += around_;
-      if (!held(at)) add(place, false, 0.0);
+      if (!held(at)) add(position, false, 0.0);
     }
   }
   std::ranges::sort(out, {}, &Node::along);

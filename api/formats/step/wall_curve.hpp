@@ -20,7 +20,7 @@ namespace tubecut::api {
 class WallCurve {
  public:
   /// Row and fraction of the distance to the next.
-  struct Place {
+  struct RowPosition {
     std::size_t row = 0;
     double share = 0.0;
   };
@@ -32,17 +32,17 @@ class WallCurve {
   [[nodiscard]] std::size_t rows() const { return length_.size(); }
   [[nodiscard]] std::size_t edges() const { return edges_.size(); }
   /// (phi, z) of an edge.
-  [[nodiscard]] Eigen::Vector2d at(std::size_t edge, const Place& place) const;
+  [[nodiscard]] Eigen::Vector2d at(std::size_t edge, const RowPosition& position) const;
   /// How far along the rows, mm; `around()` in all.
-  [[nodiscard]] double along(const Place& place) const;
+  [[nodiscard]] double along(const RowPosition& position) const;
   [[nodiscard]] double around() const { return around_; }
   /// Returns the points, ascending, at which its edges have two slopes.
-  [[nodiscard]] std::vector<Place> corners() const;
+  [[nodiscard]] std::vector<RowPosition> corners() const;
   /// Returns the points at which an edge crosses the generator phi, in any turn.
-  [[nodiscard]] std::vector<Place> crossings(std::size_t edge, double phi) const;
+  [[nodiscard]] std::vector<RowPosition> crossings(std::size_t edge, double phi) const;
 
   /// `stations`: knots of it, at least one, ascending; it begins at the first.
-  [[nodiscard]] WallSpline spline(const std::vector<Place>& stations) const;
+  [[nodiscard]] WallSpline spline(const std::vector<RowPosition>& stations) const;
 
  private:
   struct Edge {
@@ -65,7 +65,7 @@ class WallCurve {
   };
   /// A point at which a span may begin: a row, a station, or one in a long gap.
   struct Node {
-    Place place;
+    RowPosition position;
     double along = 0.0;  // from the first station
     bool corner = false, station = false;
     double turn = 0.0;  // 1 beyond the last row
@@ -91,10 +91,10 @@ class WallCurve {
   void lay(bool centred);
   void bend_evenly(Edge& edge) const;
   [[nodiscard]] Eigen::Vector2d laid_gap(const Edge& edge, std::size_t row) const;
-  [[nodiscard]] Passing<Eigen::Vector2d> pass(const Edge& edge, const Place& place) const;
-  [[nodiscard]] Node node(const Place& place) const;
+  [[nodiscard]] Passing<Eigen::Vector2d> pass(const Edge& edge, const RowPosition& position) const;
+  [[nodiscard]] Node node(const RowPosition& position) const;
   void lay_in_space(std::vector<Node>& nodes) const;
-  [[nodiscard]] std::vector<Node> nodes(const std::vector<Place>& stations) const;
+  [[nodiscard]] std::vector<Node> nodes(const std::vector<RowPosition>& stations) const;
   /// How far round an edge goes from one node to the next, rad.
   [[nodiscard]] double turned(std::size_t edge, const Node& from, const Node& to) const;
   [[nodiscard]] Pair cubics(std::size_t edge, const Node& from, const Node& to) const;

@@ -174,7 +174,7 @@ void WallCurve::add_spans(const Node& from, const Node& to, double origin, int h
 
 std::vector<WallCurve::Span> WallCurve::spans(const std::vector<Node>& nodes) const {
   std::vector<Span> out;
-  const double origin = along(nodes.front().place);
+  const double origin = along(nodes.front().position);
   for (std::size_t from = 0; from + 1 < nodes.size();) {
     ask();
     const auto to = farthest(nodes, from);
@@ -214,7 +214,7 @@ std::vector<WallCurve::Span> WallCurve::graded(std::vector<Span> spans) {
   return spans;
 }
 
-WallSpline WallCurve::spline(const std::vector<Place>& stations) const {
+WallSpline WallCurve::spline(const std::vector<RowPosition>& stations) const {
   const auto all = graded(spans(nodes(stations)));
   WallSpline out{.knots = {{}}, .points = {}, .flat = {}, .stations = {0}};
   for (const auto& first : all.front().curves) out.points.push_back({first[0]});
