@@ -27,43 +27,43 @@ constexpr Lettering kGrey{.height = 2.2, .color = "#566370"};
 double tag_width(const Opening& one) { return text_width(one.tag, kTagHeight, true); }
 
 /// `factor`: of the drawing's scale if there must be room for the tags, else 0.
-std::vector<Place> places_of(const part::Part& part, double factor) {
-  std::vector<Place> out{place_of(part.start.table), place_of(part.finish.table)};
+std::vector<SurfaceRange> surface_ranges(const part::Part& part, double factor) {
+  std::vector<SurfaceRange> out{surface_range(part.start.table), surface_range(part.finish.table)};
   for (const auto& one : openings(part)) {
-    auto place = place_of(one.rows);
+    auto range = surface_range(one.rows);
     const double wide = factor > 0.0 && one.tagged ? tag_width(one) / factor : 0.0;
-    const double more = std::max(0.0, 0.5 * (wide - (place.z_to - place.z_from)));
-    place.z_from -= more;
-    place.z_to += more;
-    out.push_back(place);
+    const double more = std::max(0.0, 0.5 * (wide - (range.z_to - range.z_from)));
+    range.z_from -= more;
+    range.z_to += more;
+    out.push_back(range);
   }
   for (const auto& mark : part.marks)
     if (mark.kind != part::Mark::Kind::datum_line)
       out.push_back({.z_from = mark.z_from, .z_to = mark.z_to});
-  std::ranges::sort(out, {}, &Place::z_from);
+  std::ranges::sort(out, {}, &SurfaceRange::z_from);
   return out;
 }
 
-std::vector<DevelopmentPlan::Strip> strips_of(const std::vector<Place>& places, double scale,
+std::vector<DevelopmentPlan::Strip> strips_of(const std::vector<SurfaceRange>& ranges, double scale,
                                               double room) {
   std::vector<DevelopmentPlan::Strip> out(1);
-  if (scale * (places.back().z_to - places.front().z_from) <= room)
-    return {{{.from = places.front().z_from, .to = places.back().z_to, .at = 0.0}}};
+  if (scale * (ranges.back().z_to - ranges.front().z_from) <= room)
+    return {{{.from = ranges.front().z_from, .to = ranges.back().z_to, .at = 0.0}}};
   double used = 0.0;
-  for (const auto& place : places) {
-    const double size = scale * (place.z_to - place.z_from);
+  for (const auto& range : ranges) {
+    const double size = scale * (range.z_to - range.z_from);
     auto& strip = out.back();
-    const double gap = strip.empty() ? 0.0 : scale * (place.z_from - strip.back().to);
+    const double gap = strip.empty() ? 0.0 : scale * (range.z_from - strip.back().to);
     const double between = std::min(gap, kBreak);
     if (!strip.empty() && used + between + size > room) {
-      out.push_back({{.from = place.z_from, .to = place.z_to, .at = 0.0}});
+      out.push_back({{.from = range.z_from, .to = range.z_to, .at = 0.0}});
       used = size;
       continue;
     }
     if (strip.empty() || gap > kBreak)
-      strip.push_back({.from = place.z_from, .to = place.z_to, .at = used + between});
+      strip.push_back({.from = range.z_from, .to = range.z_to, .at = used + between});
     else
-      strip.back().to = place.z_to;
+      strip.back().to = range.z_to;
     used += between + size;
   }
   return out;
@@ -81,11 +81,11 @@ class SegmentDrawing {
                        {x(segment_.to), top_.y});
     metal();
     quarters();
-    if (holds(place_of(part_.start.table))) end(part_.start, spec_.start.welded, "start", 0);
-    if (holds(place_of(part_.finish.table)))
+    if (holds(surface_range(part_.start.table))) end(part_.start, spec_.start.welded, "start", 0);
+    if (holds(surface_range(part_.finish.table)))
       end(part_.finish, spec_.finish.welded, "finish", part_.start.spec.partners.size());
     for (std::size_t i = 0; i < openings_.size(); ++i)
-      if (holds(place_of(openings_[i].rows))) opening(i);
+      if (holds(surface_range(openings_[i].rows))) opening(i);
     for (const auto& mark : part_.marks)
       if (mark.kind != part::Mark::Kind::datum_line &&
           holds({.z_from = mark.z_from, .z_to = mark.z_to}))
@@ -100,8 +100,8 @@ class SegmentDrawing {
   [[nodiscard]] DrawingPoint at(double phi, double z) const {
     return {x(z), top_.y - plan_.scale.factor * spec_.target.outer_radius * (phi - plan_.opened)};
   }
-  [[nodiscard]] bool holds(const Place& place) const {
-    return place.z_to >= segment_.from && place.z_from <= segment_.to;
+  [[nodiscard]] bool holds(const SurfaceRange& range) const {
+    return range.z_to >= segment_.from && range.z_from <= segment_.to;
   }
   [[nodiscard]] std::vector<DrawingPoint> curve(const RoundEdge& edge) const {
     std::vector<DrawingPoint> out;
@@ -161,10 +161,10 @@ class SegmentDrawing {
   /// Drawn again a turn on where it reaches beyond the lower edge.
   void opening(std::size_t i) {
     const auto& [hole, tag, tagged] = openings_[i];
-    const auto place = place_of(hole);
-    const double turn = turned_from(plan_.opened, place.phi_from) - place.phi_from;
+    const auto range = surface_range(hole);
+    const double turn = turned_from(plan_.opened, range.phi_from) - range.phi_from;
     for (const double more : {0.0, -kTwoPi}) {
-      if (place.phi_to + turn + more < plan_.opened) continue;
+      if (range.phi_to + turn + more < plan_.opened) continue;
       std::vector<DrawingPoint> edge, inner;
       for (std::size_t k = 0; k < hole.phi.size(); ++k) {
         edge.push_back(at(hole.phi[k] + turn + more, hole.z[k]));
@@ -175,8 +175,8 @@ class SegmentDrawing {
       canvas_.polyline(std::move(inner), kInner, id + "-inner", true);
     }
     if (!tagged) return;
-    const auto above = at(place.phi_from + turn, 0.5 * (place.z_from + place.z_to));
-    const auto below = at(place.phi_to + turn, 0.5 * (place.z_from + place.z_to));
+    const auto above = at(range.phi_from + turn, 0.5 * (range.z_from + range.z_to));
+    const auto below = at(range.phi_to + turn, 0.5 * (range.z_from + range.z_to));
     const DrawingPoint where{above.x, above.y + 3.4 < top_.y ? above.y + 0.8 : below.y - 2.8};
     const double half = 0.5 * tag_width(openings_[i]);
     const auto covers = [&](const Cell& other) {
@@ -217,12 +217,12 @@ class SegmentDrawing {
     }
     double below = where.y - 1.0;
     for (const auto& one : openings_) {  // a branch's name stands below its hole
-      const auto place = place_of(one.rows);
-      const double phi_in = turned_from(place.phi_from, phi);
-      if (phi_in <= place.phi_to && mark.z_from >= place.z_from && mark.z_to <= place.z_to)
+      const auto range = surface_range(one.rows);
+      const double phi_in = turned_from(range.phi_from, phi);
+      if (phi_in <= range.phi_to && mark.z_from >= range.z_from && mark.z_to <= range.z_to)
         below = std::min(
             below, where.y - 2.6 -
-                       plan_.scale.factor * spec_.target.outer_radius * (place.phi_to - phi_in));
+                       plan_.scale.factor * spec_.target.outer_radius * (range.phi_to - phi_in));
     }
     const bool room = below - 2.6 > top_.y - plan_.scale.factor * plan_.girth;
     canvas_.label({where.x, room ? below - 2.3 : where.y + 1.2}, mark.text,
@@ -309,8 +309,8 @@ class Beside {
     for (const auto* end : {&part_.start, &part_.finish})
       for (const double z : {end->longest.z, end->shortest.z}) all.push_back(z);
     for (const auto& one : openings(part_))
-      if (const auto place = place_of(one.rows); one.tagged)
-        all.insert(all.end(), {place.z_from, place.z_to});
+      if (const auto range = surface_range(one.rows); one.tagged)
+        all.insert(all.end(), {range.z_from, range.z_to});
     std::erase_if(all, [&](double z) { return !holds(z); });
     std::ranges::sort(all);
     const auto again = std::ranges::unique(all, [](double a, double b) { return b - a < 0.005; });
@@ -367,17 +367,17 @@ DevelopmentPlan plan_development(const part::PartSpec& spec, const part::Part& p
   out.girth = kTwoPi * spec.target.outer_radius;
   const double room = width - kLeft - kRight;
   double longest = 0.0;
-  for (const auto& place : joined(places_of(part, 0.0), 0.0))
-    longest = std::max(longest, place.z_to - place.z_from);
+  for (const auto& range : joined(surface_ranges(part, 0.0), 0.0))
+    longest = std::max(longest, range.z_to - range.z_from);
   out.scale = drawing_scale(out.girth, kMostGirth);
   if (const auto other = drawing_scale(longest, room - 2.0 * kRoom);
       other.factor < out.scale.factor)
     out.scale = other;
-  auto shown = joined(places_of(part, out.scale.factor), kRoom / out.scale.factor);
-  const bool grown = std::ranges::any_of(shown, [&](const Place& place) {
-    return out.scale.factor * (place.z_to - place.z_from) > room;
+  auto shown = joined(surface_ranges(part, out.scale.factor), kRoom / out.scale.factor);
+  const bool grown = std::ranges::any_of(shown, [&](const SurfaceRange& range) {
+    return out.scale.factor * (range.z_to - range.z_from) > room;
   });
-  if (grown) shown = joined(places_of(part, 0.0), 0.0);
+  if (grown) shown = joined(surface_ranges(part, 0.0), 0.0);
   shown.front().z_from = std::min(shown.front().z_from, 0.0);
   out.strips = strips_of(shown, out.scale.factor, room);
   return out;

@@ -35,12 +35,12 @@ double RoundEdge::at(double phi) const {
   return z + (here - p) / (after->first - p) * (after->second - z);
 }
 
-Place place_of(const bevel::Hole& hole) {
+SurfaceRange surface_range(const bevel::Hole& hole) {
   const auto z = std::ranges::minmax(hole.z), phi = std::ranges::minmax(hole.phi);
   return {.z_from = z.min, .z_to = z.max, .phi_from = phi.min, .phi_to = phi.max};
 }
 
-Place place_of(const bevel::Table& end) {
+SurfaceRange surface_range(const bevel::Table& end) {
   const auto outer = std::ranges::minmax(end.z_outer), inner = std::ranges::minmax(end.z_inner);
   return {.z_from = std::min(outer.min, inner.min),
           .z_to = std::max(outer.max, inner.max),
@@ -72,15 +72,15 @@ std::vector<Opening> openings(const part::Part& part) {
   return out;
 }
 
-std::vector<Place> joined(const std::vector<Place>& places, double room) {
-  std::vector<Place> out;
-  for (auto place : places) {
-    place.z_from -= room;
-    place.z_to += room;
-    if (!out.empty() && place.z_from <= out.back().z_to)
-      out.back().z_to = std::max(out.back().z_to, place.z_to);
+std::vector<SurfaceRange> joined(const std::vector<SurfaceRange>& ranges, double room) {
+  std::vector<SurfaceRange> out;
+  for (auto range : ranges) {
+    range.z_from -= room;
+    range.z_to += room;
+    if (!out.empty() && range.z_from <= out.back().z_to)
+      out.back().z_to = std::max(out.back().z_to, range.z_to);
     else
-      out.push_back(place);
+      out.push_back(range);
   }
   return out;
 }
@@ -90,9 +90,9 @@ double phase_off_openings(const part::Part& part) {
   const auto off = [&](double phi) {
     double least = kPi;
     for (const auto& one : all) {
-      const auto place = place_of(one.rows);
-      const double after = turned_from(place.phi_from, phi) - place.phi_from;
-      const double width = place.phi_to - place.phi_from;
+      const auto range = surface_range(one.rows);
+      const double after = turned_from(range.phi_from, phi) - range.phi_from;
+      const double width = range.phi_to - range.phi_from;
       least = std::min(least, after <= width ? -1.0 : std::min(after - width, kTwoPi - after));
     }
     return least;

@@ -29,12 +29,12 @@ class RoundEdge {
 [[nodiscard]] double turned_from(double from, double phi);
 
 /// Range along the tube and round it; for a hole, phi is continuous.
-struct Place {
+struct SurfaceRange {
   double z_from = 0.0, z_to = 0.0, phi_from = 0.0, phi_to = 0.0;
 };
-[[nodiscard]] Place place_of(const bevel::Hole& hole);
+[[nodiscard]] SurfaceRange surface_range(const bevel::Hole& hole);
 /// Of an end, both walls.
-[[nodiscard]] Place place_of(const bevel::Table& end);
+[[nodiscard]] SurfaceRange surface_range(const bevel::Table& end);
 
 /// Returns the colour of partner `i`.
 [[nodiscard]] std::string_view partner_color(std::size_t i);
@@ -56,7 +56,8 @@ inline constexpr std::size_t kMostTagged = 24;
 inline constexpr double kTagHeight = 2.6, kTagRow = 3.4;  // mm, of a tag and of a row of them
 
 /// Merges ranges, ascending, that overlap when `room` is added on both sides.
-[[nodiscard]] std::vector<Place> joined(const std::vector<Place>& places, double room);
+[[nodiscard]] std::vector<SurfaceRange> joined(const std::vector<SurfaceRange>& ranges,
+                                               double room);
 /// Returns a phase off all openings: 0, else of the multiples of 15 deg the one furthest from them.
 [[nodiscard]] double phase_off_openings(const part::Part& part);
 

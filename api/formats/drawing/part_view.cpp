@@ -57,17 +57,18 @@ constexpr std::string_view kCutFace = "#e9b872", kDeep = "#6f8296";
 class Shortened {
  public:
   Shortened(const part::Part& part, double diameter) {
-    std::vector<Place> places{place_of(part.start.table), place_of(part.finish.table)};
-    for (const auto& one : openings(part)) places.push_back(place_of(one.rows));
-    std::ranges::sort(places, {}, &Place::z_from);
-    double end = places.front().z_to;
-    for (const auto& place : places) {
-      if (place.z_from - end > 1.5 * diameter)
-        cuts_.push_back({.at = 0.5 * (end + place.z_from),
-                         .less = place.z_from - end - diameter,
+    std::vector<SurfaceRange> ranges{surface_range(part.start.table),
+                                     surface_range(part.finish.table)};
+    for (const auto& one : openings(part)) ranges.push_back(surface_range(one.rows));
+    std::ranges::sort(ranges, {}, &SurfaceRange::z_from);
+    double end = ranges.front().z_to;
+    for (const auto& range : ranges) {
+      if (range.z_from - end > 1.5 * diameter)
+        cuts_.push_back({.at = 0.5 * (end + range.z_from),
+                         .less = range.z_from - end - diameter,
                          .from = end + 0.5 * diameter,
-                         .to = place.z_from - 0.5 * diameter});
-      end = std::max(end, place.z_to);
+                         .to = range.z_from - 0.5 * diameter});
+      end = std::max(end, range.z_to);
     }
   }
   [[nodiscard]] double operator()(double z) const {
@@ -144,8 +145,8 @@ class View {
     for (const auto& one : openings_)
       if (widest == nullptr || one.rows.length_total > widest->length_total) widest = &one.rows;
     if (widest == nullptr) return part_.start.shortest.phi;
-    const auto place = place_of(*widest);
-    return 0.5 * (place.phi_from + place.phi_to);
+    const auto range = surface_range(*widest);
+    return 0.5 * (range.phi_from + range.phi_to);
   }
 
   struct Tag {
@@ -158,13 +159,13 @@ class View {
     std::vector<Tag> out;
     for (const auto& one : openings_) {
       if (!one.tagged) continue;
-      const auto place = place_of(one.rows);
-      const bool seen = faces(0.5 * (place.phi_from + place.phi_to)) >= 0.1;
+      const auto range = surface_range(one.rows);
+      const bool seen = faces(0.5 * (range.phi_from + range.phi_to)) >= 0.1;
       out.push_back({&one, seen, seen ? one.tag : "(" + one.tag + ")"});
     }
     std::ranges::stable_sort(out, {}, [](const Tag& tag) {
-      const auto place = place_of(tag.opening->rows);
-      return place.z_from + place.z_to;
+      const auto range = surface_range(tag.opening->rows);
+      return range.z_from + range.z_to;
     });
     return out;
   }
@@ -275,8 +276,8 @@ class View {
     return out;
   }
   void opening(const bevel::Hole& hole) {
-    const auto place = place_of(hole);
-    if (faces(0.5 * (place.phi_from + place.phi_to)) < 0.1) return;
+    const auto range = surface_range(hole);
+    if (faces(0.5 * (range.phi_from + range.phi_to)) < 0.1) return;
     const auto border = ring(outer_, hole.phi, hole.z);
     canvas_.polyline(border, {.color = "none", .width = 0.1, .fill = kCutFace}, {}, true);
     canvas_.begin_clip(border);
@@ -336,8 +337,8 @@ class View {
     canvas_.text({right_ - 2.0, at_.y - scale_ * outer_ - 3.5}, "finish", right);
   }
   [[nodiscard]] DrawingPoint middle(const bevel::Hole& hole) const {
-    const auto place = place_of(hole);
-    return at(outer_, 0.5 * (place.phi_from + place.phi_to), 0.5 * (place.z_from + place.z_to));
+    const auto range = surface_range(hole);
+    return at(outer_, 0.5 * (range.phi_from + range.phi_to), 0.5 * (range.z_from + range.z_to));
   }
 
   Canvas& canvas_;

@@ -49,25 +49,25 @@ std::string accepted(const Caption& caption) {
 void draw_facts(OrderSheets& sheets, const std::vector<Fact>& facts, std::size_t columns) {
   constexpr double kRow = 7.4;
   const double width = kWide / static_cast<double>(columns);
-  struct Place {
+  struct GridCell {
     std::size_t row, column, span;
   };
-  std::vector<Place> places;
+  std::vector<GridCell> cells;
   std::size_t row = 0, column = 0;
   for (const auto& fact : facts) {
     const double wide =
         std::max(text_width(fact.value, kLeastText, true), text_width(fact.name, kLeastText)) + 2.0;
     const auto span = std::min(columns, static_cast<std::size_t>(std::ceil(wide / width)));
     if (column + std::max<std::size_t>(1, span) > columns) column = 0, ++row;
-    places.push_back({row, column, std::max<std::size_t>(1, span)});
-    column += places.back().span;
+    cells.push_back({row, column, std::max<std::size_t>(1, span)});
+    column += cells.back().span;
   }
   const double top = sheets.take(kRow * static_cast<double>(row + 1) + 2.0) - 0.6;
   for (std::size_t i = 0; i < facts.size(); ++i)
     draw_fact(sheets.canvas(),
-              {kLeft + width * static_cast<double>(places[i].column),
-               top - kRow * static_cast<double>(places[i].row)},
-              width * static_cast<double>(places[i].span), facts[i]);
+              {kLeft + width * static_cast<double>(cells[i].column),
+               top - kRow * static_cast<double>(cells[i].row)},
+              width * static_cast<double>(cells[i].span), facts[i]);
 }
 
 void rule(OrderSheets& sheets) {

@@ -65,10 +65,10 @@ std::string in_words(const cutout::Pattern& pattern) {
 
 namespace {
 
-/// `place` states where an instance lies round the tube.
-template <class Place>
+/// `position` states where an instance lies round the tube.
+template <class PositionText>
 void draw_cutout_rows(OrderSheets& sheets, const std::vector<cutout::Spec>& specs,
-                      const cutout::Layout& layout, double longest, const Place& place) {
+                      const cutout::Layout& layout, double longest, const PositionText& position) {
   if (layout.empty()) return;
   constexpr double kRow = 6.4;
   draw_head(sheets, "Cut-outs: anchor of the first of each, outside, in mm",
@@ -94,7 +94,7 @@ void draw_cutout_rows(OrderSheets& sheets, const std::vector<cutout::Spec>& spec
     put(0.0, 5.7, in_words(mould.laying.lay()), 64.0);
     put(22.0, 2.9, in_words(asked), 43.0);
     put(66.0, 2.9, number(one.z, Unit::mm) + "; " + number(longest - one.z, Unit::mm), 33.0);
-    put(100.0, 2.9, place(one), 15.0);
+    put(100.0, 2.9, position(one), 15.0);
     put(116.0, 2.9, in_words(asked.pattern), 45.0);
     draw_box(canvas, top, kRow);
     draw_row_line(canvas, top - kRow);

@@ -66,7 +66,7 @@ void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Par
             2.0 * kRow);
   for (std::size_t i = 0; i < part.holes.size(); ++i) {
     const auto& placed = part.holes[i];
-    const auto place = place_of(placed.hole);
+    const auto range = surface_range(placed.hole);
     const double ro = spec.target.outer_radius, top = sheets.take(kRow), y = top - 4.2;
     auto& canvas = sheets.canvas();
     const auto put = [&](double x, const std::string& text, double room, bool bold = false) {
@@ -75,7 +75,7 @@ void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Par
     const auto between = [](double a, double b) {
       return number(a, Unit::mm) + " to " + number(b, Unit::mm);
     };
-    const double middle = 0.5 * (place.phi_from + place.phi_to);
+    const double middle = 0.5 * (range.phi_from + range.phi_to);
     const double turn = turned_from(0.0, middle) - middle;
     const auto b = std::ranges::minmax(placed.hole.b);
     const auto& name = spec.holes[placed.asked].name;
@@ -84,11 +84,11 @@ void draw_holes(OrderSheets& sheets, const part::PartSpec& spec, const part::Par
         (name.empty() ? "branch " + std::to_string(placed.asked + 1) : name) +
             (placed.hole.far ? ", far side" : ""),
         27.0);
-    put(38.0, between(place.z_from, place.z_to), 37.0);
-    put(74.0, between(ro * (place.phi_from + turn), ro * (place.phi_to + turn)), 33.0);
+    put(38.0, between(range.z_from, range.z_to), 37.0);
+    put(74.0, between(ro * (range.phi_from + turn), ro * (range.phi_to + turn)), 33.0);
     put(108.0,
-        number(place.z_to - place.z_from, Unit::mm) + " x " +
-            number(ro * (place.phi_to - place.phi_from), Unit::mm),
+        number(range.z_to - range.z_from, Unit::mm) + " x " +
+            number(ro * (range.phi_to - range.phi_from), Unit::mm),
         27.0);
     put(136.0, degrees(b.min) + " to " + degrees(b.max), 25.0);
     draw_box(canvas, top, kRow);
