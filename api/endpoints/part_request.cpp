@@ -99,7 +99,7 @@ void decode_member(Reader& in, PartRequest& out) {
   auto& m = out.member.emplace();
   const auto id = in.text("member");
   m.member = known_member(in, node.ids, id, "member");
-  if (node.ids.places.contains(id)) out.section = section_of(node, m.member);
+  if (node.ids.indices.contains(id)) out.section = section_of(node, m.member);
   m.node = std::move(node.spec);
   in.note("up");
   if (in.has("up")) m.up = in.vector3("up", kComponent);

@@ -226,7 +226,7 @@ class NumberFinder final : public nlohmann::json_sax<nlohmann::json> {
   bool binary(binary_t& /*unused*/) override { return false; }
   bool start_object(std::size_t /*unused*/) override { return open(false); }
   bool key(string_t& v) override {
-    places_.back().name = v;
+    tokens_.back().name = v;
     return true;
   }
   bool end_object() override { return close(); }
@@ -243,8 +243,8 @@ class NumberFinder final : public nlohmann::json_sax<nlohmann::json> {
  private:
   static constexpr double kBeyond = 0x1p54;  // beyond values that round to 2^53
 
-  /// An open container: the member, or the index of the element, that is read.
-  struct Place {
+  /// Of an open container, the reference token (RFC 6901) of the value that is read.
+  struct ReferenceToken {
     bool array = false;
     std::size_t index = 0;
     std::string name = {};
@@ -252,15 +252,15 @@ class NumberFinder final : public nlohmann::json_sax<nlohmann::json> {
 
   bool next() {
     pace_.turn();
-    if (!places_.empty()) ++places_.back().index;
+    if (!tokens_.empty()) ++tokens_.back().index;
     return true;
   }
   bool open(bool array) {
-    places_.push_back({.array = array});
+    tokens_.push_back({.array = array});
     return true;
   }
   bool close() {
-    places_.pop_back();
+    tokens_.pop_back();
     return next();
   }
   bool seen(double value, const std::string& text) {
@@ -271,13 +271,13 @@ class NumberFinder final : public nlohmann::json_sax<nlohmann::json> {
   }
   void note(const NumberFault& fault, const std::string& text) {
     std::string pointer;
-    for (const auto& place : places_)
-      pointer += "/" + (place.array ? std::to_string(place.index) : escaped(place.name));
+    for (const auto& at : tokens_)
+      pointer += "/" + (at.array ? std::to_string(at.index) : escaped(at.name));
     found_ = BadNumber{.pointer = std::move(pointer), .text = text, .fault = fault};
   }
 
   Pace pace_;
-  std::vector<Place> places_;
+  std::vector<ReferenceToken> tokens_;
   std::optional<BadNumber> found_;
 };
 

@@ -92,12 +92,12 @@ char* by_library(char* to, double value) {
 }
 
 /// Seventeen digits: one, eight and eight.
-struct Places {
+struct DecimalPlaces {
   char first = '0';
   Bits middle = 0, last = 0;
   int count = 0;  // without the zeros at the end
 
-  explicit Places(Bits digits) {
+  explicit DecimalPlaces(Bits digits) {
     const Bits top = digits / kEight;
     first = static_cast<char>('0' + top / kEight);
     middle = characters(top % kEight);
@@ -109,7 +109,7 @@ struct Places {
 
 /// Writes `places` with the point after `before` further digits. Returns nullptr if the scientific
 /// notation is shorter.
-char* print_fixed(char* to, const Places& places, int before) {
+char* print_fixed(char* to, const DecimalPlaces& places, int before) {
   if (before < 0) {
     if (before == -4 && places.count == 1) return nullptr;
     std::memcpy(to, "0.000000", 8);
@@ -147,7 +147,7 @@ char* print_shortest(char* to, double value) {
   if (before > kMostBefore || before < -4) return by_library(to, value);
   const bool negative = bits >> 63U != 0;
   *to = '-';
-  const Places places(sixteen ? decimal->digits * 10 : decimal->digits);
+  const DecimalPlaces places(sixteen ? decimal->digits * 10 : decimal->digits);
   char* const end = print_fixed(to + (negative ? 1 : 0), places, before);
   return end != nullptr ? end : by_library(to, value);
 }

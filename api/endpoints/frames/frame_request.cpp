@@ -29,20 +29,21 @@ constexpr std::size_t kMostOthersGiven = 100'000;
 constexpr auto kMostJoints = 2 * static_cast<std::size_t>(limit::members_max);
 
 /// A member or one of the others.
-struct Place {
+struct BodyRef {
   std::size_t index = 0;
   bool other = false;
 };
-struct Places {
-  std::map<std::string, Place, std::less<>> by_id;
+struct BodyIndex {
+  std::map<std::string, BodyRef, std::less<>> by_id;
   bool complete = true;
 };
 
-Places places_of(Reader& in, const NamedMembers& members, const std::vector<WorldCutter>& others) {
-  Places out{.by_id = {}, .complete = members.ids.complete && !in.refused()};
-  for (const auto& [id, index] : members.ids.places) out.by_id.emplace(id, Place{index, false});
+BodyIndex body_index(Reader& in, const NamedMembers& members,
+                     const std::vector<WorldCutter>& others) {
+  BodyIndex out{.by_id = {}, .complete = members.ids.complete && !in.refused()};
+  for (const auto& [id, index] : members.ids.indices) out.by_id.emplace(id, BodyRef{index, false});
   for (std::size_t i = 0; i < others.size(); ++i)
-    if (!others[i].name.empty() && !out.by_id.emplace(others[i].name, Place{i, true}).second) {
+    if (!others[i].name.empty() && !out.by_id.emplace(others[i].name, BodyRef{i, true}).second) {
       out.complete = false;
       in.issue({.code = ErrorCode::duplicate_id,
                 .pointer = "others/" + std::to_string(i) + "/id",
@@ -52,12 +53,12 @@ Places places_of(Reader& in, const NamedMembers& members, const std::vector<Worl
   return out;
 }
 
-std::optional<Place> known(Reader& in, const Places& places, const std::string& id,
-                           const std::string& pointer) {
-  if (const auto found = places.by_id.find(id); found != places.by_id.end()) return found->second;
-  if (id.empty() || !places.complete) return std::nullopt;  // has its issue already
+std::optional<BodyRef> known(Reader& in, const BodyIndex& bodies, const std::string& id,
+                             const std::string& pointer) {
+  if (const auto found = bodies.by_id.find(id); found != bodies.by_id.end()) return found->second;
+  if (id.empty() || !bodies.complete) return std::nullopt;  // has its issue already
   std::vector<std::string> names;
-  for (const auto& [name, place] : places.by_id) names.push_back(name);
+  for (const auto& [name, body] : bodies.by_id) names.push_back(name);
   const auto near = nearest_name(id, names);
   in.issue({.code = ErrorCode::bad_choice,
             .pointer = pointer,
@@ -226,11 +227,11 @@ void decode_own_ends(Reader& in, const NamedMembers& members, const bevel::Table
 }
 
 /// The two of `between`, the member first.
-void decode_between(Reader& in, const Places& places, frame::StatedJoint& out) {
+void decode_between(Reader& in, const BodyIndex& bodies, frame::StatedJoint& out) {
   const auto ids = in.text_column("between", {.min = 2, .max = 2});
   if (ids.size() != 2) return;
-  auto a = known(in, places, ids[0], "between/0");
-  auto b = known(in, places, ids[1], "between/1");
+  auto a = known(in, bodies, ids[0], "between/0");
+  auto b = known(in, bodies, ids[1], "between/1");
   if (!a || !b) return;
   if (a->other) std::swap(a, b);
   if (a->other || ids[0] == ids[1])
@@ -256,10 +257,10 @@ void decode_named_end(Reader& in, bool by_nearness, frame::StatedJoint& out) {
              in.find("end"));
 }
 
-void decode_joint(Reader& in, const Places& places, const bevel::TableSpec& cut,
+void decode_joint(Reader& in, const BodyIndex& bodies, const bevel::TableSpec& cut,
                   FrameRequest& out) {
   frame::StatedJoint joint;
-  decode_between(in, places, joint);
+  decode_between(in, bodies, joint);
   decode_named_end(in, out.spec.within.has_value(), joint);
   const auto kind = in.tag("kind", kNames<How::Kind>);
   joint.how.kind = kind.value_or(How::Kind::set_on);
@@ -349,7 +350,7 @@ FrameRequest decode_frame_request(Reader& in) {
   in.note("others");
   if (in.has("others"))
     others = in.array("others", {.min = 0, .max = kMostOthersGiven}, decode_world_cutter);
-  const auto places = places_of(in, members, others);
+  const auto bodies = body_index(in, members, others);
   out.spec.members = members.members;
   out.walls = members.walls;
   out.sections = members.sections;
@@ -363,7 +364,7 @@ FrameRequest decode_frame_request(Reader& in) {
   in.note("joints");
   if (in.has("joints"))
     in.array("joints", {.min = 0, .max = kMostJoints}, [&](Reader& j) {
-      decode_joint(j, places, cut, out);
+      decode_joint(j, bodies, cut, out);
       return 0;
     });
   leave_out_others(in, out);

@@ -138,7 +138,7 @@ MemberIds decode_ids(Reader& in, const std::vector<joint::Member>& members) {
   out.complete = items != nullptr && !items->empty() && items->size() == members.size();
   for (const auto& member : members) out.complete = out.complete && !member.name.empty();
   for (std::size_t i = 0; i < members.size(); ++i)
-    if (!members[i].name.empty() && !out.places.emplace(members[i].name, i).second) {
+    if (!members[i].name.empty() && !out.indices.emplace(members[i].name, i).second) {
       out.complete = false;  // which member had the id that is missing now, nobody knows
       in.issue({.code = ErrorCode::duplicate_id,
                 .pointer = "members/" + std::to_string(i) + "/id",
@@ -192,7 +192,7 @@ NodeEnd decode_end(Reader& in) {
   NodeEnd out{.node = node.spec};
   const auto id = in.text("member");
   out.member = known_member(in, node.ids, id, "member");
-  if (node.ids.places.contains(id)) out.section = section_of(node, out.member);
+  if (node.ids.indices.contains(id)) out.section = section_of(node, out.member);
   out.end = in.choice("end", kNames<joint::End>);
   return out;
 }
@@ -212,11 +212,11 @@ Renamings renamings(const JointSource& source) {
 
 std::size_t known_member(Reader& in, const MemberIds& ids, const std::string& id,
                          const std::string& pointer) {
-  const auto found = ids.places.find(id);
-  if (found != ids.places.end()) return found->second;
+  const auto found = ids.indices.find(id);
+  if (found != ids.indices.end()) return found->second;
   if (id.empty() || !ids.complete) return 0;  // has its issue already
   std::vector<std::string> names;
-  for (const auto& [name, place] : ids.places) names.push_back(name);
+  for (const auto& [name, index] : ids.indices) names.push_back(name);
   const auto near = nearest_name(id, names);
   in.issue({.code = ErrorCode::bad_choice,
             .pointer = pointer,

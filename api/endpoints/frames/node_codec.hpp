@@ -12,9 +12,9 @@
 
 namespace tubecut::api {
 
-/// Places of a node's members by id.
+/// Indices of a node's members by id.
 struct MemberIds {
-  std::map<std::string, std::size_t, std::less<>> places;
+  std::map<std::string, std::size_t, std::less<>> indices;
   bool complete = true;  // all ids are known, so an unknown one is an error
 };
 /// Returns the member whose id is `id`; `pointer` names the field for an issue.
