@@ -73,8 +73,8 @@ Port::Port(const TransportOptions& of, Service service_of)
       memory(shared_memory(of)),
       arriving(memory.most() / kWaiting, &memory),
       lines(memory.most() / kWaiting, &memory),
-      places(static_cast<std::size_t>(of.per_client > 0 ? of.per_client
-                                                        : std::max(1, of.connections / 2))),
+      quota(static_cast<std::size_t>(of.per_client > 0 ? of.per_client
+                                                       : std::max(1, of.connections / 2))),
       scratch(kReadBytes, '\0'),
       slots(
           of.slots, of.queue, [this](const std::shared_ptr<Job>& job) { work(*job); },
@@ -251,12 +251,12 @@ void Port::open(Socket socket) {
   const auto peer = address_of(socket);
   const bool shared = service.is_shared && service.is_shared(peer);
   bool full = false;
-  if (!shared && places.full(peer)) full = !make_room(peer);
+  if (!shared && quota.full(peer)) full = !make_room(peer);
   if (!full && sessions_.size() >= static_cast<std::size_t>(options.connections)) {
     full = !make_room("");
   }
-  auto place = shared ? Place() : Place(places, peer);
-  auto session = std::make_shared<Session>(*this, std::move(socket), peer, std::move(place));
+  auto permit = shared ? ConnectionPermit() : ConnectionPermit(quota, peer);
+  auto session = std::make_shared<Session>(*this, std::move(socket), peer, std::move(permit));
   sessions_.push_back(session);
   counters.connections = sessions_.size();
   try {

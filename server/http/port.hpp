@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "server/http/connection_quota.hpp"
 #include "server/http/loop.hpp"
 #include "server/http/memory_share.hpp"
-#include "server/http/places.hpp"
 #include "server/http/printer.hpp"
 #include "server/http/request_reader.hpp"
 #include "server/http/transport.hpp"
@@ -85,10 +85,10 @@ class Port {
   const TransportOptions options;
   const Service service;
   const ReaderLimits limits;
-  MemoryBound memory;    // for bodies, jobs and answers
-  MemoryBound arriving;  // of it: requests not yet whole
-  MemoryBound lines;     // of it: batches' lines not yet begun
-  Places places;         // of clients
+  MemoryBound memory;     // for bodies, jobs and answers
+  MemoryBound arriving;   // of it: requests not yet whole
+  MemoryBound lines;      // of it: batches' lines not yet begun
+  ConnectionQuota quota;  // of clients
   PortCounters counters;
   Loop loop;              // after what sessions hold shares of: it may keep the last of them
   bool stopping = false;  // soon to be drained

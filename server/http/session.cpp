@@ -39,12 +39,12 @@ void refuse_waiting(Job& job, PortCounters& counters) {
 
 }  // namespace
 
-Session::Session(Port& port, Socket socket, std::string peer, Place place)
+Session::Session(Port& port, Socket socket, std::string peer, ConnectionPermit permit)
     : Strand(port.loop),
       port_(port),
       socket_(std::move(socket)),
       peer_(std::move(peer)),
-      place_(std::move(place)),
+      permit_(std::move(permit)),
       reader_(port.limits),
       arriving_(port.arriving),
       sending_(port.memory) {
@@ -309,8 +309,8 @@ std::optional<Refusal> Session::offer(const std::shared_ptr<Job>& job) {
 std::optional<Refusal> Session::know_client(const Request& request) {
   client_ = port_.service.client ? port_.service.client(request) : peer_;
   if (client_ == peer_ || key_.is_of(client_)) return std::nullopt;
-  if (!port_.places.full(client_)) {
-    key_ = Place(port_.places, client_);
+  if (!port_.quota.full(client_)) {
+    key_ = ConnectionPermit(port_.quota, client_);
     return std::nullopt;
   }
   ++port_.counters.full;
@@ -479,7 +479,7 @@ void Session::cut() {
 /// Nobody waits for its jobs any more.
 void Session::on_end() {
   cut();
-  place_ = {};
+  permit_ = {};
   key_ = {};
   report(false);
   for (const auto& job : std::exchange(jobs_, {})) {

@@ -29,7 +29,7 @@ class Session final : public Strand {
   struct Gone {};
   using InPort = std::list<std::shared_ptr<Session>>::iterator;
 
-  Session(Port& port, Socket socket, std::string peer, Place place);
+  Session(Port& port, Socket socket, std::string peer, ConnectionPermit permit);
   ~Session() override;
 
   /// Begins its life; `full`: with the refusal that too many connections are open.
@@ -99,10 +99,10 @@ class Session final : public Strand {
 
   Port& port_;
   Socket socket_;
-  std::string peer_;    // numeric address
-  std::string client_;  // the client of the last request
-  Place place_;         // among its address's
-  Place key_;           // permit among its key's connections; empty without keys
+  std::string peer_;         // numeric address
+  std::string client_;       // the client of the last request
+  ConnectionPermit permit_;  // among its address's connections
+  ConnectionPermit key_;     // permit among its key's connections; empty without keys
   InPort at_;
   State state_ = State::idle;
   bool ends_ = false;  // with the answer being made or sent

@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include "server/http/places.hpp"
+#include "server/http/connection_quota.hpp"
 #include "server/jobs/slots.hpp"
 
 namespace tubecut::server {
@@ -144,15 +144,15 @@ TEST(MemoryShare, IsAlwaysReleased) {
   EXPECT_EQ(part.used(), 0U);
 }
 
-TEST(Places, AreBoundedByClientAndGivenBack) {
-  Places places(2);
+TEST(ConnectionQuota, IsBoundedByClientAndGivenBack) {
+  ConnectionQuota quota(2);
   {
-    const Place one(places, "a");
-    const Place two(places, "a");
-    EXPECT_TRUE(places.full("a"));
-    EXPECT_FALSE(places.full("b"));
+    const ConnectionPermit one(quota, "a");
+    const ConnectionPermit two(quota, "a");
+    EXPECT_TRUE(quota.full("a"));
+    EXPECT_FALSE(quota.full("b"));
   }
-  EXPECT_FALSE(places.full("a"));
+  EXPECT_FALSE(quota.full("a"));
 }
 
 }  // namespace

@@ -7,15 +7,15 @@
 
 namespace tubecut::server {
 
-class Place;
+class ConnectionPermit;
 
 /// Counts the open connections of each client, up to a limit per client. Only for the loop's
 /// thread.
-class Places {
+class ConnectionQuota {
  public:
-  explicit Places(std::size_t most) : most_(most) {}
-  Places(const Places&) = delete;
-  Places& operator=(const Places&) = delete;
+  explicit ConnectionQuota(std::size_t most) : most_(most) {}
+  ConnectionQuota(const ConnectionQuota&) = delete;
+  ConnectionQuota& operator=(const ConnectionQuota&) = delete;
 
   [[nodiscard]] bool full(const std::string& client) const {
     const auto found = count_.find(client);
@@ -23,26 +23,27 @@ class Places {
   }
 
  private:
-  friend class Place;
+  friend class ConnectionPermit;
   std::size_t most_;
   std::map<std::string, std::size_t> count_;
 };
 
-/// One of a client's places, given back at the end of its life.
-class Place {
+/// One of a client's connections, given back at the end of its life.
+class ConnectionPermit {
  public:
-  Place() = default;
-  Place(Places& of, const std::string& client)
+  ConnectionPermit() = default;
+  ConnectionPermit(ConnectionQuota& of, const std::string& client)
       : of_(&of), at_(of.count_.try_emplace(client, 0).first) {
     ++at_->second;
   }
-  Place(Place&& other) noexcept : of_(std::exchange(other.of_, nullptr)), at_(other.at_) {}
-  Place& operator=(Place&& other) noexcept {
+  ConnectionPermit(ConnectionPermit&& other) noexcept
+      : of_(std::exchange(other.of_, nullptr)), at_(other.at_) {}
+  ConnectionPermit& operator=(ConnectionPermit&& other) noexcept {
     std::swap(of_, other.of_);
     std::swap(at_, other.at_);
     return *this;
   }
-  ~Place() {
+  ~ConnectionPermit() {
     if (of_ != nullptr && --at_->second == 0) of_->count_.erase(at_);
   }
 
@@ -51,7 +52,7 @@ class Place {
   }
 
  private:
-  Places* of_ = nullptr;
+  ConnectionQuota* of_ = nullptr;
   std::map<std::string, std::size_t>::iterator at_ = {};
 };
 
