@@ -25,7 +25,7 @@ class Cut:
         self.mark = False  # a stroke, whose lengths are minutes
 
 
-class Place:
+class Pose:
     """Words of a pivot `arm` mm behind the tip's reach; phi, b, a in deg, z and off in mm."""
 
     def __init__(self, words, radius, pivot):
@@ -90,7 +90,7 @@ def events(program):
 
 
 def follow(what_happens, radius, pivot, clearance=50.0):
-    """The cuts of a program with a pivot; each as Places from its pierce on, the first of them the pierce."""
+    """The cuts of a program with a pivot; each as poses from its pierce on, the first of them the pierce."""
     at, cuts, burning, marking, name, start, mark = {}, [], False, False, "", None, False
     for kind, value in what_happens:
         if kind in ("cut", "mark"):
@@ -106,7 +106,7 @@ def follow(what_happens, radius, pivot, clearance=50.0):
             if mark:
                 raise Fault("the torch burns a mark")
             cuts[-1].lit = burning = True
-            cuts[-1].places.append(Place(at, radius, pivot))
+            cuts[-1].places.append(Pose(at, radius, pivot))
         elif kind == "off":
             burning = False
         elif kind == "dwell":
@@ -125,9 +125,9 @@ def follow(what_happens, radius, pivot, clearance=50.0):
             if not cuts:
                 raise Fault("a move before any approach")
             if not cuts[-1].places:
-                cuts[-1].places.append(Place(at, radius, pivot))
+                cuts[-1].places.append(Pose(at, radius, pivot))
             at.update(words)
-            cuts[-1].places.append(Place(at, radius, pivot))
+            cuts[-1].places.append(Pose(at, radius, pivot))
             cuts[-1].lengths.append(length)
             cuts[-1].dark += not (marking if mark else burning)
     if tip_height(at, pivot) < radius + clearance - 1e-3:

@@ -116,13 +116,13 @@ Solid solid(const joint::ElbowCutter& elbow) {
   };
 }
 
-struct Place {
+struct OverlapPoint {
   std::size_t gap = 0, solid = 0;
   double along = 0.0, across = 0.0, depth = -std::numeric_limits<double>::infinity();
 };
 
 /// Steps in both directions, halved if no step improves the result.
-void refine(const Wall& wall, std::span<const Solid> solids, Place& best) {
+void refine(const Wall& wall, std::span<const Solid> solids, OverlapPoint& best) {
   const double widest = static_cast<double>(wall.edges.size() - 1);
   const double size = std::max(1.0, wall.way(best.gap));
   for (double step = 0.15; step * size > 1e-7; step *= 0.5)
@@ -206,11 +206,11 @@ Wall finished(const bevel::TableSpec& spec, const bevel::Table& t) {
 Found deepest(const Wall& wall, std::span<const Solid> solids, const Search& search) {
   std::mt19937_64 random(search.seed);
   std::uniform_real_distribution<double> any(0.0, 1.0);
-  std::vector<Place> best;
+  std::vector<OverlapPoint> best;
   for (std::size_t gap = 0; gap < wall.gaps(); ++gap) {
     const auto steps =
         static_cast<std::size_t>(std::clamp(std::ceil(wall.way(gap) / search.step), 3.0, 24.0));
-    std::vector<Place> here(solids.size());
+    std::vector<OverlapPoint> here(solids.size());
     for (std::size_t k = 0; k < (search.rows_only ? 1 : steps); ++k) {
       const double along =
           k == 0 ? 0.0 : (static_cast<double>(k) - 0.5 + any(random)) / static_cast<double>(steps);
@@ -224,11 +224,11 @@ Found deepest(const Wall& wall, std::span<const Solid> solids, const Search& sea
     }
     best.insert(best.end(), here.begin(), here.end());
   }
-  std::ranges::sort(best, std::ranges::greater(), &Place::depth);
+  std::ranges::sort(best, std::ranges::greater(), &OverlapPoint::depth);
   best.resize(std::min(best.size(), search.refined));
   if (!search.rows_only)
-    for (auto& place : best) refine(wall, solids, place);
-  const auto& top = *std::ranges::max_element(best, {}, &Place::depth);
+    for (auto& point : best) refine(wall, solids, point);
+  const auto& top = *std::ranges::max_element(best, {}, &OverlapPoint::depth);
   const Point p = wall.at(top.gap, top.along, top.across);
   const auto next = (top.gap + 1) % wall.gaps();
   const auto& phi = wall.edges.front().phi;

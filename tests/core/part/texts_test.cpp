@@ -104,13 +104,13 @@ double nearest(const std::vector<Point>& edge, const Lettering& text, double gir
 }
 
 /// z of an end's plane where a generator of the outside meets it. The part's z = 0 is `low`.
-template <class Place>
-std::vector<Point> end_points(const Place& place, double girth, const Eigen::Vector3d& normal,
-                              bool finish, double low) {
+template <class OutlinePoint>
+std::vector<Point> end_points(const OutlinePoint& point_at, double girth,
+                              const Eigen::Vector3d& normal, bool finish, double low) {
   std::vector<Point> out;
   for (int i = 0; i < kPlaces; ++i) {
     const double s = girth * i / kPlaces;
-    const Eigen::Vector2d p = place(s);
+    const Eigen::Vector2d p = point_at(s);
     const double rise = -(normal.x() * p.x() + normal.y() * (finish ? -p.y() : p.y())) / normal.z();
     out.emplace_back(s, (finish ? kLength - rise : rise) + low);
   }
