@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/base/error_codes.hpp"
-#include "core/base/turns.hpp"
+#include "core/base/parallel_for.hpp"
 
 namespace tubecut::api {
 
@@ -36,9 +36,9 @@ struct Context {
   int (*status)(ErrorKind) = nullptr;  // the number printed in a problem's `status`
   /// Largest body that this replica takes, if an endpoint takes more; `GET /v1/limits` shows it.
   std::size_t max_body = std::numeric_limits<std::size_t>::max();
-  double budget_s = 0.0;       // CPU of any job here; 0: the endpoint's default
-  double call_budget_s = 0.0;  // CPU limit that this call requests; 0: the usual one
-  Turns turns = in_order;      // runs independent tasks of the job
+  double budget_s = 0.0;                    // CPU of any job here; 0: the endpoint's default
+  double call_budget_s = 0.0;               // CPU limit that this call requests; 0: the usual one
+  ParallelFor parallel_for = run_in_order;  // runs independent tasks of the job
 };
 
 /// A job ends at the latest this many times its CPU budget after its request arrived, even if it

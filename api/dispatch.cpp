@@ -139,7 +139,7 @@ Outcome CallRun::work(const Endpoint& endpoint) {
       .understood = [this](std::string_view input_sha256) { out_.job.input_sha256 = input_sha256; },
       .judged = [this](const Answer& answer) { judged(answer); },
       .forget_body = [&body] { *body = Json{}; },
-      .turns = context_.turns};
+      .parallel_for = context_.parallel_for};
   const bool begins = choice->by_lines && !query.validate_only;
   auto reply = begins ? endpoint.begin(in, run) : endpoint.handle(in, run);
   if (auto* problem = std::get_if<Problem>(&reply)) {

@@ -66,7 +66,7 @@ tl::expected<std::string, Problem> print_document(const typename E::Spec& spec,
 ///   static Result<Out> compute(const Spec&);  pure core call
 ///   static std::vector<Check> verify(const Spec&, const Out&);
 ///     the verification
-///     if a job has many pieces, compute, verify and encode take `const Turns&` last
+///     if a job has many pieces, compute, verify and encode take `const ParallelFor&` last
 ///   static std::vector<Warning> warnings(const Spec&, const Out&);
 ///   static std::vector<Measure> measure(const Spec&, const Out&);
 ///   static void encode(const Spec&, const Out&, Writer&);  members of `result`
@@ -83,11 +83,11 @@ Reply run(Reader& in, Run& run) {
   auto& answer = made->answer;
   if (run.format == nullptr) {
     Writer writer(1 << 16, run.encoding);
-    made->encode(writer, run.turns);
+    made->encode(writer, run.parallel_for);
     if (run.encoding == Encoding::json) answer.result_sha256 = writer.sha256();
     answer.result = writer.take();
   }
-  if (answer.result_sha256.empty()) answer.result_sha256 = made->hashed(run.turns);
+  if (answer.result_sha256.empty()) answer.result_sha256 = made->hashed(run.parallel_for);
   if (run.format != nullptr) {
     auto text =
         print_document<E>(made->spec, made->out, *run.format, std::move(run.caption), answer);

@@ -11,7 +11,7 @@
 #include "api/wire/problem.hpp"
 #include "api/wire/writer.hpp"
 #include "core/base/error.hpp"
-#include "core/base/turns.hpp"
+#include "core/base/parallel_for.hpp"
 
 namespace tubecut::api {
 
@@ -40,7 +40,7 @@ struct Run {
   std::function<void(std::string_view)> understood = {};  // called with the input's sha256
   std::function<void(const Answer&)> judged = {};         // called when the verdict is known
   std::function<void()> forget_body = [] {};              // called when all of it is read
-  Turns turns = in_order;                                 // runs independent tasks
+  ParallelFor parallel_for = run_in_order;                // runs independent tasks
 };
 
 }  // namespace tubecut::api

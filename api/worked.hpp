@@ -22,25 +22,25 @@ struct Worked {
   typename E::Out out;
   Answer answer;
 
-  void encode(Writer& writer, const Turns& turns) const {
+  void encode(Writer& writer, const ParallelFor& parallel_for) const {
     writer.object([&](Writer& w) {
-      if constexpr (requires { E::encode(spec, out, w, turns); })
-        E::encode(spec, out, w, turns);
+      if constexpr (requires { E::encode(spec, out, w, parallel_for); })
+        E::encode(spec, out, w, parallel_for);
       else
         E::encode(spec, out, w);
     });
   }
-  [[nodiscard]] std::string hashed(const Turns& turns) const {
+  [[nodiscard]] std::string hashed(const ParallelFor& parallel_for) const {
     auto writer = Writer::hashing();
-    encode(writer, turns);
+    encode(writer, parallel_for);
     return writer.sha256();
   }
 };
 
 template <class E>
 Result<typename E::Out> computed(const typename E::Spec& spec, const Run& run) {
-  if constexpr (requires { E::compute(spec, run.turns); })
-    return E::compute(spec, run.turns);
+  if constexpr (requires { E::compute(spec, run.parallel_for); })
+    return E::compute(spec, run.parallel_for);
   else
     return E::compute(spec);
 }
@@ -50,8 +50,8 @@ Result<typename E::Out> computed(const typename E::Spec& spec, const Run& run) {
 template <class E>
 std::vector<Check> prove(const typename E::Spec& spec, const typename E::Out& out, const Run& run) {
   std::vector<Check> checks;
-  if constexpr (requires { E::verify(spec, out, run.turns); })
-    checks = E::verify(spec, out, run.turns);
+  if constexpr (requires { E::verify(spec, out, run.parallel_for); })
+    checks = E::verify(spec, out, run.parallel_for);
   else
     checks = E::verify(spec, out);
   ask();

@@ -249,7 +249,7 @@ api::Context App::context() const {
 
 api::Context App::context(const Request& request) const {
   api::Context with = context();
-  with.turns = request.turns;
+  with.parallel_for = request.parallel_for;
   with.call_budget_s = std::chrono::duration<double>(budget(request).cpu).count();
   return with;
 }

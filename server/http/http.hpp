@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/base/error_codes.hpp"
-#include "core/base/turns.hpp"
+#include "core/base/parallel_for.hpp"
 
 /// Requests and answers as values: all that is left of HTTP once a transport has read a request.
 namespace tubecut::server {
@@ -47,7 +47,7 @@ struct Request {
   bool reports_sending = false;  // the transport will call `Response::sent`
   std::size_t line = 0;          // of a batch, from 1; 0: a request by itself
   bool logged = true;            // a line of a batch that is not a job: whether it is logged
-  Turns turns = in_order;        // by whom pieces of the job are done
+  ParallelFor parallel_for = run_in_order;  // by whom pieces of the job are done
   /// CPU that all threads have had for it since a slot began it; empty: no slot did.
   std::function<std::chrono::nanoseconds()> used_cpu = {};
 };

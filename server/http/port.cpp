@@ -112,7 +112,7 @@ JobMemory::Grant Port::grow(Job& job, std::size_t bytes) const {
 
 /// Runs in the job's thread, whose memory takes over the helpers' memory, because their results
 /// belong to the job.
-void Port::take_turns(Job& job, std::size_t count, const Turn& turn) {
+void Port::run_parallel(Job& job, std::size_t count, const ParallelTask& task) {
   JobMemory::Taken all;
   const auto within = [&](const Helpers::Stint& stint) {
     const StopScope scope(job.stop.get_token());
@@ -127,7 +127,7 @@ void Port::take_turns(Job& job, std::size_t count, const Turn& turn) {
     all.live += taken.live;
   };
   try {
-    slots.take_turns(count, turn, within);
+    slots.run_parallel(count, task, within);
   } catch (...) {
     JobMemory::take_over(all);
     throw;
@@ -139,8 +139,8 @@ void Port::take_turns(Job& job, std::size_t count, const Turn& turn) {
 void Port::work(Job& job) {
   job.request.times.started = seconds(Clock::now());
   job.request.used_cpu = [&job] { return used(job); };
-  job.request.turns = [this, &job](std::size_t count, const Turn& turn) {
-    take_turns(job, count, turn);
+  job.request.parallel_for = [this, &job](std::size_t count, const ParallelTask& task) {
+    run_parallel(job, count, task);
   };
   const auto body = std::min(job.request.body.size(), job.memory.bytes());
   const auto given = kThreadBytes + job.memory.bytes() - body;
@@ -148,8 +148,8 @@ void Port::work(Job& job) {
     const JobMemory taken(given, [&](std::size_t bytes) { return grow(job, bytes); });
     answer(job);
   }
-  give_back(job.request.body);   // a client that is slow to take its answer holds only the answer
-  job.request.turns = in_order;  // the remaining threads no longer work for this job
+  give_back(job.request.body);  // a client that is slow to take its answer holds only the answer
+  job.request.parallel_for = run_in_order;  // the remaining threads no longer work for this job
   job.request.used_cpu = nullptr;
 }
 

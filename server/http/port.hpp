@@ -99,7 +99,7 @@ class Port {
 
  private:
   void work(Job& job);
-  void take_turns(Job& job, std::size_t count, const Turn& turn);
+  void run_parallel(Job& job, std::size_t count, const ParallelTask& task);
   void answer(Job& job) const;
   [[nodiscard]] Response respond(const Request& request) const;
   [[nodiscard]] Printed printed(Response response, const Request& request,

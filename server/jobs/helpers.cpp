@@ -35,20 +35,20 @@ void Helpers::allow(int most) {
 
 Helpers::Work* Helpers::some_work() {
   if (helping_ >= most_) return nullptr;
-  const auto with_turns = std::ranges::find_if(works_, [](const Work* work) {
+  const auto with_tasks = std::ranges::find_if(works_, [](const Work* work) {
     return work->next < work->count && !work->failure && work->helped_by < kMost;
   });
-  return with_turns != works_.end() ? *with_turns : nullptr;
+  return with_tasks != works_.end() ? *with_tasks : nullptr;
 }
 
-void Helpers::do_turns(Work& work, bool helps) {
+void Helpers::run_tasks(Work& work, bool helps) {
   std::unique_lock lock(mutex_);
   while (work.next < work.count && !work.failure && (!helps || helping_ <= most_)) {
     const std::size_t i = work.next++;
     lock.unlock();
     std::exception_ptr failure;
     try {
-      work.turn(i);
+      work.task(i);
     } catch (...) {
       failure = std::current_exception();
     }
@@ -60,8 +60,8 @@ void Helpers::do_turns(Work& work, bool helps) {
   }
 }
 
-void Helpers::take_turns(std::size_t count, const Turn& turn, const Within& within) {
-  Work work{.count = count, .turn = turn, .within = within};
+void Helpers::run_parallel(std::size_t count, const ParallelTask& task, const Within& within) {
+  Work work{.count = count, .task = task, .within = within};
   const bool shared = count > 1 && !threads_.empty();
   if (shared) {
     {
@@ -71,7 +71,7 @@ void Helpers::take_turns(std::size_t count, const Turn& turn, const Within& with
     }
     some_.notify_all();
   }
-  do_turns(work, false);
+  run_tasks(work, false);
   if (shared) {
     std::unique_lock lock(mutex_);
     std::erase(works_, &work);
@@ -90,7 +90,7 @@ void Helpers::run() {
     ++helping_;
     ++work->helped_by;
     lock.unlock();
-    work->within([this, work] { do_turns(*work, true); });
+    work->within([this, work] { run_tasks(*work, true); });
     lock.lock();
     --helping_;
     if (--work->helped_by == 0) work->left.notify_all();

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/base/turns.hpp"
+#include "core/base/parallel_for.hpp"
 #include "server/jobs/cpu_clock.hpp"
 
 namespace tubecut::server {
@@ -32,20 +32,20 @@ class Helpers {
   Helpers(const Helpers&) = delete;
   Helpers& operator=(const Helpers&) = delete;
 
-  /// Ends the threads; jobs do the rest of their turns themselves.
+  /// Ends the threads; jobs do the rest of their tasks themselves.
   void join();
 
   /// Sets how many threads may help from now on. From any thread.
   void allow(int most);
 
-  /// See tubecut::Turns; runs in the job's thread, which does tasks too. Each helping thread does
-  /// so `within`, which must not throw.
-  void take_turns(std::size_t count, const Turn& turn, const Within& within);
+  /// See tubecut::ParallelFor; runs in the job's thread, which does tasks too. Each helping thread
+  /// does so `within`, which must not throw.
+  void run_parallel(std::size_t count, const ParallelTask& task, const Within& within);
 
  private:
   struct Work {
     std::size_t count;
-    const Turn& turn;
+    const ParallelTask& task;
     const Within& within;
     std::size_t next = 0;
     std::size_t helped_by = 0;
@@ -55,7 +55,7 @@ class Helpers {
   };
   void run();
   [[nodiscard]] Work* some_work();
-  void do_turns(Work& work, bool helps);
+  void run_tasks(Work& work, bool helps);
 
   std::mutex mutex_;
   std::condition_variable some_;

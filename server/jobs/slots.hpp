@@ -84,8 +84,8 @@ class Slots {
   [[nodiscard]] bool withdraw(const std::shared_ptr<Job>& job);
 
   /// See Helpers; of a job that a slot has begun, by threads that hold none.
-  void take_turns(std::size_t count, const Turn& turn, const Helpers::Within& within) {
-    helpers_.take_turns(count, turn, within);
+  void run_parallel(std::size_t count, const ParallelTask& task, const Helpers::Within& within) {
+    helpers_.run_parallel(count, task, within);
   }
 
   /// CPU that the job has used since a slot began it. From any thread.

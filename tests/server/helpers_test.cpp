@@ -15,25 +15,25 @@ namespace {
 
 void within(const Helpers::Stint& stint) { stint(); }
 
-TEST(Helpers, DoEveryTurnOnce) {
+TEST(Helpers, RunEveryTaskOnce) {
   for (const int most : {0, 1, 3}) {
     Helpers helpers(3, [] {});
     helpers.allow(most);
     std::vector<std::atomic<int>> done(1'000);
-    helpers.take_turns(
+    helpers.run_parallel(
         done.size(), [&](std::size_t i) { ++done[i]; }, within);
-    for (const auto& turn : done) EXPECT_EQ(turn, 1);
+    for (const auto& runs : done) EXPECT_EQ(runs, 1);
   }
 }
 
-/// Two turns that wait for each other: ends only where somebody helps.
+/// Two tasks that wait for each other: ends only where somebody helps.
 TEST(Helpers, HelpAsManyAsMay) {
   Helpers helpers(3, [] {});
   helpers.allow(2);
   std::latch three(3);
   std::mutex mutex;
   std::set<std::thread::id> who;
-  helpers.take_turns(
+  helpers.run_parallel(
       3,
       [&](std::size_t) {
         three.arrive_and_wait();
@@ -44,13 +44,13 @@ TEST(Helpers, HelpAsManyAsMay) {
   EXPECT_EQ(who.size(), 3U);
 }
 
-TEST(Helpers, LeaveAfterTheTurnAtHandWhenASlotIsWanted) {
+TEST(Helpers, LeaveAfterTheCurrentTaskWhenASlotIsWanted) {
   Helpers helpers(1, [] {});
   helpers.allow(1);
   const auto own = std::this_thread::get_id();
   std::latch both(2), told(1);
   std::atomic<int> by_others = 0;
-  helpers.take_turns(
+  helpers.run_parallel(
       100,
       [&](std::size_t i) {
         if (i < 2) both.arrive_and_wait();
@@ -69,7 +69,7 @@ TEST(Helpers, LeaveAfterTheTurnAtHandWhenASlotIsWanted) {
 TEST(Helpers, BeginOnlyIfASlotIsFree) {
   Helpers helpers(2, [] {});
   const auto own = std::this_thread::get_id();
-  helpers.take_turns(
+  helpers.run_parallel(
       50, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), own); }, within);
 }
 
@@ -80,7 +80,7 @@ TEST(Helpers, RethrowExceptionOfFirstFailedTask) {
   std::latch both(2);
   std::atomic<int> begun = 0;
   try {
-    helpers.take_turns(
+    helpers.run_parallel(
         1'000,
         [&](std::size_t i) {
           ++begun;
@@ -96,7 +96,7 @@ TEST(Helpers, RethrowExceptionOfFirstFailedTask) {
   }
   EXPECT_LT(begun, 1'000);
   std::atomic<int> after = 0;
-  helpers.take_turns(
+  helpers.run_parallel(
       10, [&](std::size_t) { ++after; }, within);
   EXPECT_EQ(after, 10);
 }

@@ -42,7 +42,7 @@ Result<MadePart> make(const Json& request) {
     out.problem = std::move(made).error();
     return out;
   }
-  made->answer.result_sha256 = made->hashed(in_order);
+  made->answer.result_sha256 = made->hashed(run_in_order);
   out.made = std::make_unique<const Worked<Parts>>(*std::move(made));
   return out;
 }
@@ -141,9 +141,9 @@ struct FrameBase {
 };
 
 struct Frames : FrameBase {
-  static Result<Out> compute(const Spec& spec, const Turns& turns) {
+  static Result<Out> compute(const Spec& spec, const ParallelFor& parallel_for) {
     std::vector<std::optional<Result<MadePart>>> made(spec.parts.size());
-    turns(made.size(), [&](std::size_t i) {
+    parallel_for(made.size(), [&](std::size_t i) {
       ask();
       made[i] = make(spec.parts[i].request);
     });

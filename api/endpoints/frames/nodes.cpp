@@ -163,14 +163,14 @@ struct Nodes {
     TRY(spec.solved, joint::solve(spec.node));
     return spec;
   }
-  static Result<Out> compute(const Spec& spec, const Turns& turns) {
+  static Result<Out> compute(const Spec& spec, const ParallelFor& parallel_for) {
     Out out;
     TRY(out.overlaps, joint::overlaps(spec.node, spec.solved, {}));
     if (spec.profiles) {
       TRY(out.profiles, joint::profiles(spec.node, spec.solved, spec.sampling));
     }
     if (!spec.tables) return out;
-    auto tables = bevel::end_tables(spec.node, spec.solved, *spec.tables, turns);
+    auto tables = bevel::end_tables(spec.node, spec.solved, *spec.tables, parallel_for);
     if (!tables) return tl::unexpected(in_tables(tables.error()));
     out.tables = *std::move(tables);
     return out;
@@ -183,7 +183,8 @@ struct Nodes {
     return error;
   }
 
-  static std::vector<Check> verify(const Spec& spec, const Out& out, const Turns& turns) {
+  static std::vector<Check> verify(const Spec& spec, const Out& out,
+                                   const ParallelFor& parallel_for) {
     auto checks = joint::verify(spec.node, spec.solved);
     for (std::size_t i = 0; i < out.profiles.size(); ++i)
       if (out.profiles[i]) {
@@ -195,7 +196,7 @@ struct Nodes {
                                          joint.section, *out.profiles[i]));
       }
     std::vector<std::vector<Check>> of_tables(out.tables.size());
-    turns(of_tables.size(), [&](std::size_t i) {
+    parallel_for(of_tables.size(), [&](std::size_t i) {
       const auto& end = out.tables[i];
       if (end && end->table) of_tables[i] = bevel::verify(end->spec, *end->table);
       if (end && end->of_section)
@@ -292,7 +293,7 @@ struct Nodes {
       encode_table_of(spec, end, *out.tables[index], w);
   }
 
-  static void encode(const Spec& spec, const Out& out, Writer& w, const Turns& turns) {
+  static void encode(const Spec& spec, const Out& out, Writer& w, const ParallelFor& parallel_for) {
     constexpr std::size_t kAtOnce = 16;  // number of ends whose text is held in addition to the
                                          // answer's
     const auto& ends = spec.solved.ends;
@@ -302,7 +303,7 @@ struct Nodes {
       if (i % kAtOnce == 0) {
         parts.clear();
         while (parts.size() < std::min(kAtOnce, ends.size() - i)) parts.push_back(each.part());
-        turns(parts.size(), [&](std::size_t k) {
+        parallel_for(parts.size(), [&](std::size_t k) {
           parts[k].object([&](Writer& o) { encode_end(spec, out, ends[i + k], o); });
         });
       }

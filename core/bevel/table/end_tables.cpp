@@ -91,7 +91,7 @@ class SharedNodes {
 Result<std::vector<std::optional<EndTable>>> end_tables(const joint::NodeSpec& spec,
                                                         const joint::Nodes& nodes,
                                                         const TableSpec& asked,
-                                                        const Turns& turns) {
+                                                        const ParallelFor& parallel_for) {
   TRY(check_groove(asked.groove));
   std::vector<std::size_t> cut;
   for (std::size_t i = 0; i < nodes.ends.size(); ++i)
@@ -101,7 +101,7 @@ Result<std::vector<std::optional<EndTable>>> end_tables(const joint::NodeSpec& s
   SharedNodes shared(asked);
   for (std::size_t from = 0; from < cut.size();) {
     std::vector<std::optional<Result<EndTable>>> made(std::min(shared.tables(), cut.size() - from));
-    turns(made.size(), [&](std::size_t k) {
+    parallel_for(made.size(), [&](std::size_t k) {
       if (!stopped()) made[k] = end_table(spec, nodes.ends[cut[from + k]], shared.left());
     });
     for (auto& one : made) {

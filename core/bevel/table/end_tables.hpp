@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/turns.hpp"
+#include "core/base/parallel_for.hpp"
 #include "core/bevel/section/section_table.hpp"
 #include "core/bevel/table/table.hpp"
 #include "core/joint/node/node.hpp"
@@ -28,6 +28,6 @@ struct EndTable {
 ///         all ends together), cancelled.
 [[nodiscard]] Result<std::vector<std::optional<EndTable>>> end_tables(
     const joint::NodeSpec& spec, const joint::Nodes& nodes, const TableSpec& asked,
-    const Turns& turns = in_order);
+    const ParallelFor& parallel_for = run_in_order);
 
 }  // namespace tubecut::bevel

@@ -35,8 +35,8 @@ TableSpec asked(std::size_t most) {
   return out;
 }
 
-void backwards(std::size_t count, const Turn& turn) {
-  while (count-- > 0) turn(count);
+void backwards(std::size_t count, const ParallelTask& task) {
+  while (count-- > 0) task(count);
 }
 
 std::string shown(const Shown& value) {
