@@ -135,7 +135,7 @@ tl::expected<std::string, Refusal> Access::identify(const Headers& headers) cons
                                 "Send a key as Authorization: Bearer KEY or X-Api-Key: KEY."});
 }
 
-std::optional<Refusal> Access::take_turn(const std::string& identity, double now) {
+std::optional<Refusal> Access::take_rate_token(const std::string& identity, double now) {
   const std::lock_guard lock(mutex_);
   const auto key =
       std::ranges::find_if(keys_, [&](const ApiKey& k) { return k.identity == identity; });

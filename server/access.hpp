@@ -41,8 +41,8 @@ class Access {
   /// an empty identity if no keys are required. Takes the same time for any wrong key.
   [[nodiscard]] tl::expected<std::string, Refusal> identify(const Headers& headers) const;
 
-  /// Takes one request off the identity's rate, at that monotonic time in seconds.
-  [[nodiscard]] std::optional<Refusal> take_turn(const std::string& identity, double now);
+  /// Takes a token of the identity's rate for one request, at that monotonic time in seconds.
+  [[nodiscard]] std::optional<Refusal> take_rate_token(const std::string& identity, double now);
 
  private:
   struct Bucket {

@@ -186,7 +186,7 @@ std::optional<Refusal> App::screen(const Request& head) const {
 std::optional<Refusal> App::admit(const Request& request) const {
   if (!x_.access || !x_.access->asks()) return std::nullopt;
   const auto identity = x_.access->identify(request.headers);
-  return identity ? x_.access->take_turn(*identity, steady_seconds()) : std::nullopt;
+  return identity ? x_.access->take_rate_token(*identity, steady_seconds()) : std::nullopt;
 }
 
 std::size_t App::memory(const Request& request) {

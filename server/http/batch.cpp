@@ -15,18 +15,18 @@ using namespace std::chrono_literals;
 
 /// Answers held for a client that is slow to take them; no further line begins beyond.
 constexpr std::size_t kHeld = 2u << 20;
-/// Lines that end within a turn of the scheduler: the port may come that late to begin the next.
-constexpr double kTurnS = 0.004;
+/// The delay with which the scheduler may wake the port: lines that end within it begin ahead.
+constexpr double kWakeDelayS = 0.004;
 constexpr std::size_t kAhead = 8;
-constexpr auto kAskAgain = 20ms;  // a full queue, memory in use, or the key's rate
-constexpr auto kLook = 50ms;      // whether the client is still there
+constexpr auto kAskAgain = 20ms;        // a full queue, memory in use, or the key's rate
+constexpr auto kBatchPeerCheck = 50ms;  // whether the client is still there
 /// Lines that are not jobs, after which further ones are answered and counted but not logged,
 /// because a line of log is many times as long as such a line.
 constexpr std::size_t kLogged = 100;
 /// A gateway cuts off an answer that is silent for longer, so a blank line follows.
 constexpr auto kSilence = 5s;
 constexpr std::size_t kReadAtOnce = 64u << 10;
-constexpr std::size_t kScanAtOnce = 256u << 10;  // bytes looked through in one turn
+constexpr std::size_t kScanAtOnce = 256u << 10;  // bytes scanned before it yields
 
 /// A large line is not even read for its id: that would hold up the port.
 void refuse_line(Request& line, Refusal refusal) {
@@ -133,14 +133,14 @@ std::optional<std::string_view> Batch::next_line() {
 }
 
 Task<void> Batch::count_lines() {
-  for (std::size_t looked = 0;;) {
+  for (std::size_t scanned = 0;;) {
     const auto before = at_;
     const auto line = next_line();
     if (line && line->empty()) break;
     count_.items += line ? 1 : 0;
-    looked += at_ - before;
-    if (looked < kScanAtOnce) continue;
-    looked = 0;
+    scanned += at_ - before;
+    if (scanned < kScanAtOnce) continue;
+    scanned = 0;
     co_await on_.yield();
   }
   at_ = 0;
@@ -149,7 +149,7 @@ Task<void> Batch::count_lines() {
 Task<void> Batch::answer_lines() {
   co_await count_lines();
   on_.gone_by_ = Clock::time_point::max();
-  for (auto looks = Clock::now() + kLook;;) {
+  for (auto next_check = Clock::now() + kBatchPeerCheck;;) {
     stopped_ = stopped_ || port_.draining;
     take_finished();
     refuse_late();
@@ -157,10 +157,10 @@ Task<void> Batch::answer_lines() {
     send();
     begin_lines();
     if (stopped_ && on_.jobs_.empty()) co_return;
-    co_await on_.pause(std::min(due(), looks));
-    if (Clock::now() < looks) continue;
-    on_.look();
-    looks = Clock::now() + kLook;
+    co_await on_.pause(std::min(due(), next_check));
+    if (Clock::now() < next_check) continue;
+    on_.check_peer();
+    next_check = Clock::now() + kBatchPeerCheck;
   }
 }
 
@@ -185,7 +185,8 @@ std::size_t Batch::worked_on() const { return static_cast<std::size_t>(port_.slo
 /// Returns the number of additional lines to start, if they are so short that slots would wait for
 /// the port.
 std::size_t Batch::ahead() const {
-  return pace_s_ > 0.0 ? static_cast<std::size_t>(std::min(1.0 * kAhead, kTurnS / pace_s_)) : 0;
+  return pace_s_ > 0.0 ? static_cast<std::size_t>(std::min(1.0 * kAhead, kWakeDelayS / pace_s_))
+                       : 0;
 }
 
 /// As many as are worked on at a time, so that other requests wait for no more than these.

@@ -12,7 +12,7 @@ std::list<FairQueue::Client>::iterator FairQueue::find(const std::string& client
 }
 
 /// If memory is short, nothing has changed, because a client without flows or a flow without jobs
-/// would have a turn and nothing to do with it.
+/// would be served and have nothing to run.
 void FairQueue::push(const std::shared_ptr<Job>& job) {
   const Claim& claim = job->claim;
   if (const auto client = find(claim.client); client == clients_.end()) {

@@ -16,8 +16,8 @@ struct Claim {
   const void* flow = nullptr;  // of the client's: the connection it came by
 };
 
-/// Jobs of one class that wait for a thread. Clients take turns, and so do the flows of a client: a
-/// client with much work waits only for its own.
+/// Jobs of one class that wait for a thread. Serves clients one after another, and so the flows of
+/// a client: a client with much work waits only for its own.
 class FairQueue {
  public:
   void push(const std::shared_ptr<Job>& job);
@@ -41,14 +41,14 @@ class FairQueue {
   };
   struct Client {
     std::string name;
-    std::list<Flow> flows = {};  // the first is the next to have its turn
+    std::list<Flow> flows = {};  // the first is served next
     std::size_t count = 0;
   };
 
   [[nodiscard]] std::list<Client>::iterator find(const std::string& client);
   void forget_if_idle(std::list<Client>::iterator client, std::list<Flow>::iterator flow);
 
-  std::list<Client> clients_;  // the first is the next to have its turn
+  std::list<Client> clients_;  // the first is served next
   std::size_t size_ = 0;
 };
 

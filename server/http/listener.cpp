@@ -21,10 +21,10 @@ namespace asio = boost::asio;
 using Acceptor = asio::basic_socket_acceptor<Tcp, Executor>;
 
 constexpr int kBacklog = 1024;
-constexpr int kAcceptsPerTurn = 64;  // then the connections' turn
-constexpr auto kOutOfMeans = 10ms;   // descriptors, memory: asked again
-constexpr auto kHandshakes = 50ms;   // that have begun: they end within a round trip
-constexpr auto kListeningEnds = 5s;  // a loop that does not even do that
+constexpr int kAcceptsBeforeYield = 64;  // then the connections go on
+constexpr auto kOutOfMeans = 10ms;       // descriptors, memory: asked again
+constexpr auto kHandshakes = 50ms;       // that have begun: they end within a round trip
+constexpr auto kListeningEnds = 5s;      // a loop that does not even do that
 
 /// Drops what opens a connection (SYN) from here on. Its client sends it again a second later, when
 /// the port is closed or another process listens: a connection made in the moment in which the port
@@ -56,7 +56,7 @@ class Listener final : public Strand {
  private:
   Task<void> live() {
     while (acceptor_.is_open()) {
-      const bool goes_on = look();
+      const bool goes_on = accept_or_wait();
       if (!acceptor_.is_open()) break;
       if (Clock::now() >= closes_) {
         close();
@@ -79,7 +79,7 @@ class Listener final : public Strand {
   }
 
   /// Accepts, or asks to be woken when there is something to accept; true when to be called again.
-  bool look() {
+  bool accept_or_wait() {
     try {
       if (accept_some()) return true;
       if (!acceptor_.is_open()) return false;
@@ -105,7 +105,7 @@ class Listener final : public Strand {
   /// True when there may be more.
   bool accept_some() {
     out_of_means_ = false;
-    for (int n = 0; n < kAcceptsPerTurn; ++n) {
+    for (int n = 0; n < kAcceptsBeforeYield; ++n) {
       boost::system::error_code error;
       Socket socket(port_.loop.io());
       acceptor_.accept(socket, error);

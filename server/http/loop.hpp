@@ -19,7 +19,7 @@ using Socket = boost::asio::basic_stream_socket<Tcp, Executor>;
 class Strand;
 
 /// A port's only thread: Asio's events wake strands, and the loop resumes those that are awake, one
-/// after another. Handlers only wake, so no code of ours runs inside another strand's turn.
+/// after another. Handlers only wake, so no code of ours runs while another strand runs.
 class Loop {
  public:
   [[nodiscard]] boost::asio::io_context& io() { return io_; }
@@ -58,7 +58,7 @@ class Strand : public std::enable_shared_from_this<Strand> {
   /// Suspends until woken, at the latest at `deadline`. Wakes may be spurious, so check the
   /// condition again.
   [[nodiscard]] Chain::Pause pause(Clock::time_point deadline);
-  /// Lets the others have their turn.
+  /// Lets the others go on.
   [[nodiscard]] Chain::Pause yield() {
     wake();
     return {};

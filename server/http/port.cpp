@@ -23,10 +23,10 @@ constexpr auto kTaken = 1s;  // most answers are by then: the others give way wh
 constexpr int kWaitShare = 2;
 /// Minimum time between two checks of a job's CPU, because a job without CPU may stay just below
 /// its budget for long.
-constexpr std::chrono::nanoseconds kLeastLook = 500us;
+constexpr std::chrono::nanoseconds kLeastCheck = 500us;
 /// Fraction of the remaining budget after which a job is checked again, because its memory may grow
 /// and freeing it takes time too.
-constexpr double kLookShare = 0.6;
+constexpr double kCheckShare = 0.6;
 /// Part of the memory that is kept free of answers which slow clients have not taken.
 constexpr std::size_t kKeptFree = 4;
 /// Memory of each thread for its job, in addition to the memory reserved for the job: everyday jobs
@@ -239,9 +239,9 @@ void Port::hold_to_budget(Job& job) const {
     job.stop.request_stop();
     job.due = Clock::time_point::max();
   } else {
-    const auto look =
-        std::chrono::ceil<std::chrono::nanoseconds>(kLookShare * left / (1 + job.helped.threads()));
-    job.due = std::min(job.end, job.budget.cpu > 0ms ? now + std::max(look, kLeastLook)
+    const auto until_check = std::chrono::ceil<std::chrono::nanoseconds>(
+        kCheckShare * left / (1 + job.helped.threads()));
+    job.due = std::min(job.end, job.budget.cpu > 0ms ? now + std::max(until_check, kLeastCheck)
                                                      : Clock::time_point::max());
   }
 }

@@ -16,8 +16,8 @@ namespace {
 using namespace std::chrono_literals;
 namespace asio = boost::asio;
 
-constexpr int kReadsPerTurn = 8;            // then another connection's turn
-constexpr int kRequestsPerTurn = 32;        // refused at once, by rate or for want of room
+constexpr int kReadsBeforeYield = 8;        // then other connections go on
+constexpr int kRequestsBeforeYield = 32;    // refused at once, by rate or for want of room
 constexpr auto kNextWhileDraining = 500ms;  // a request may be on its way on an idle connection
 /// A client that still sends reads no answer: its bytes are dropped until it pauses, or is done.
 constexpr auto kLingerTime = 1s;  // of silence
@@ -64,7 +64,7 @@ void Session::start(InPort at, bool full) {
   begin(live());
 }
 
-/// Head, screen, body; turn and answer; again.
+/// Head, screen, body; job and answer; again.
 Task<void> Session::live() {
   try {
     while (co_await read_request()) {
@@ -73,15 +73,15 @@ Task<void> Session::live() {
         co_await linger();
         break;
       }
-      if (++requests_ == kRequestsPerTurn) co_await turn_over();
+      if (++requests_ == kRequestsBeforeYield) co_await yield_to_others();
     }
   } catch (const Gone&) {
   } catch (const std::exception&) {  // out of memory: this connection ends, the others go on
   }
 }
 
-/// The others' turn.
-Chain::Pause Session::turn_over() {
+/// Lets the others go on.
+Chain::Pause Session::yield_to_others() {
   reads_ = requests_ = 0;
   return yield();
 }
@@ -148,7 +148,7 @@ Task<Session::Got> Session::advance() {
     if (digest_rest()) co_return Got::bytes;
     port_.bound_arrivals();
     if (gives_way_) co_return Got::no_room;
-    if (++reads_ > kReadsPerTurn) co_await turn_over();
+    if (++reads_ > kReadsBeforeYield) co_await yield_to_others();
     if (const auto got = receive()) co_return *got;
     if (Clock::now() >= due()) co_return Got::late;
     wait_readable();
@@ -274,7 +274,7 @@ Task<void> Session::answer_request() {
     claim(*job);
     job->request.refusal = offer(job);
   }
-  if (!job->request.refusal && !batch) co_await take_turn(job);
+  if (!job->request.refusal && !batch) co_await await_job(job);
   if (job->begins || (batch && !job->request.refusal)) {
     Batch lines(*this, job);
     co_await lines.live();
@@ -325,7 +325,7 @@ void Session::claim(Job& job) const {
 }
 
 /// Waits for the job's slot, and its end; or refuses it.
-Task<void> Session::take_turn(std::shared_ptr<Job> job) {
+Task<void> Session::await_job(std::shared_ptr<Job> job) {
   jobs_.push_back(job);
   gone_by_ = Clock::time_point::max();
   bool waits = true;
@@ -333,7 +333,7 @@ Task<void> Session::take_turn(std::shared_ptr<Job> job) {
     const auto until = std::min(std::min(job->due, gone_by_), Clock::now() + kCheckPeer);
     co_await pause(until);
     if (job->finished) break;
-    look();
+    check_peer();
     if (Clock::now() < job->due && !job->displaced) continue;
     if (waits && (job->displaced || port_.slots.withdraw(job))) {
       refuse_waiting(*job, port_.counters);
@@ -345,8 +345,8 @@ Task<void> Session::take_turn(std::shared_ptr<Job> job) {
   std::erase(jobs_, job);
 }
 
-/// Whether the client is still there.
-void Session::look() {
+/// Ends the connection if the client is gone.
+void Session::check_peer() {
   pollfd who{.fd = socket_.native_handle(), .events = POLLRDHUP, .revents = 0};
   ::poll(&who, 1, 0);
   const bool half = (who.revents & POLLRDHUP) != 0;
@@ -427,7 +427,7 @@ Task<void> Session::linger() {
   set_due(kLingerTime);
   std::size_t dropped = 0;
   while (dropped <= kLingerBytes) {
-    if (++reads_ > kReadsPerTurn) co_await turn_over();
+    if (++reads_ > kReadsBeforeYield) co_await yield_to_others();
     const auto n = socket_.read_some(asio::buffer(port_.scratch), error);
     dropped += n;
     if (!error) {

@@ -70,12 +70,12 @@ class Session final : public Strand {
   void screen();
   Task<void> read_body();
   Task<void> answer_request();
-  Task<void> take_turn(std::shared_ptr<Job> job);
+  Task<void> await_job(std::shared_ptr<Job> job);
   Task<void> send(Printed answer);
   Task<void> linger();
 
   Task<Got> advance();
-  [[nodiscard]] Chain::Pause turn_over();
+  [[nodiscard]] Chain::Pause yield_to_others();
   bool digest_rest();
   std::size_t digest(std::string_view bytes);
   std::optional<Got> receive();
@@ -87,7 +87,7 @@ class Session final : public Strand {
   [[nodiscard]] std::optional<Refusal> offer(const std::shared_ptr<Job>& job);
   [[nodiscard]] std::optional<Refusal> know_client(const Request& request);
   void claim(Job& job) const;
-  void look();
+  void check_peer();
   bool send_some();
   void count_sending();
   void say(std::string_view bytes);
@@ -110,7 +110,7 @@ class Session final : public Strand {
   bool gives_way_ = false;
   bool awaits_reading_ = false;  // an event is pending
   bool awaits_writing_ = false;
-  int reads_ = 0;  // since others had their turn
+  int reads_ = 0;  // since it yielded to others
   int requests_ = 0;
   RequestReader reader_;
   std::optional<Refusal> refusal_;

@@ -38,7 +38,7 @@ struct Service {
   std::function<std::size_t(std::string_view line)> line_memory = {};
   /// Returns the largest body whose job fits in the memory; empty: no limit.
   std::function<std::size_t(std::string_view target)> room = {};
-  /// Returns the client of the request, for fair turns. Empty: the address.
+  /// Returns the client of the request, for the fair queue. Empty: the address.
   std::function<std::string(const Request&)> client = {};
   /// Returns whether the job is short, so that it need not wait for long ones; empty: none is.
   std::function<bool(const Request&)> is_short = {};

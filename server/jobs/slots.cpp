@@ -100,7 +100,7 @@ void Slots::count_waiting() {
   helpers_.allow(waiting_ > 0 ? 0 : std::max(0, count_ - in_slots_));
 }
 
-/// A slot takes from both classes in turn.
+/// A slot takes from both classes alternately.
 std::shared_ptr<Job> Slots::pop(bool in_slot) {
   if (!in_slot) return short_.pop();
   auto& first = long_next_ ? long_ : short_;
@@ -140,8 +140,8 @@ void Slots::run(bool in_slot) {
       sleepers.sleep(lock);
       continue;
     }
-    const bool looks_again = in_slot && !job;
-    if (looks_again) ++back_;
+    const bool seeks_again = in_slot && !job;
+    if (seeks_again) ++back_;
     lock.unlock();
     if (leaves_short) extra_.wake_one();
     if (done) done_(std::exchange(done, nullptr));
@@ -151,7 +151,7 @@ void Slots::run(bool in_slot) {
       own = job->cpu.used();
     }
     lock.lock();
-    if (looks_again) --back_;
+    if (seeks_again) --back_;
     if (job)
       finish(*job, in_slot, own);  // before its answer is out: who gets it finds the slot free
     done = std::move(job);

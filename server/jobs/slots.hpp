@@ -36,7 +36,7 @@ struct Job {
   std::chrono::steady_clock::time_point end =
       std::chrono::steady_clock::time_point::max();  // of its budget by the wall's clock
   std::chrono::steady_clock::time_point due =
-      std::chrono::steady_clock::time_point::max();  // when the port has to look at it
+      std::chrono::steady_clock::time_point::max();  // when the port has to check it
   Claim claim = {};
   bool is_short = false;   // its class
   bool begun = false;      // of the slots' mutex
@@ -56,7 +56,7 @@ struct Job {
 [[nodiscard]] std::chrono::nanoseconds used(const Job& job);
 
 /// The threads that compute, and the bounded queues before them, one for short jobs and one for
-/// long ones. A slot takes from both in turn, so neither class waits for ever. In addition, one
+/// long ones. A slot takes from both alternately, so neither class waits for ever. In addition, one
 /// thread takes only short jobs, so these never wait until a long one ends.
 class Slots {
  public:
@@ -115,7 +115,7 @@ class Slots {
   Sleepers slots_, extra_;  // the slots' threads, and the one for short jobs only
   int back_ = 0;            // slots' threads that are done with a job and look for the next
   FairQueue short_, long_;
-  bool long_next_ = false;  // whether it is the long jobs' turn in a slot
+  bool long_next_ = false;  // whether a slot takes a long job next
   int in_slots_ = 0;
   int in_extra_ = 0;
   bool ending_ = false;

@@ -83,20 +83,20 @@ TEST(Access, GivesEachIdentityItsOwnRate) {
   int taken = 0;
   for (int i = 0; i <= 1000; ++i) {  // 10 s, a hundred a second
     const double now = 1000.0 + 0.01 * i;
-    if (!access.take_turn("slow", now)) ++taken;
-    EXPECT_FALSE(access.take_turn("fast", now));
+    if (!access.take_rate_token("slow", now)) ++taken;
+    EXPECT_FALSE(access.take_rate_token("fast", now));
   }
   EXPECT_GE(taken, 21);
   EXPECT_LE(taken, 22);  // the burst of one second, then two a second
-  const auto refusal = access.take_turn("slow", 1010.0);
+  const auto refusal = access.take_rate_token("slow", 1010.0);
   ASSERT_TRUE(refusal);
   EXPECT_EQ(refusal->code, ErrorCode::rate_limited);
   EXPECT_EQ(refusal->retry_after_s, 1);
 }
 
-/// Those who take turns: owners of keys, from any address; without keys, addresses, also those that
-/// a trusted proxy names.
-TEST(Access, NamesTheClientForFairTurns) {
+/// The clients of the fair queue: owners of keys, from any address; without keys, addresses, also
+/// those that a trusted proxy names.
+TEST(Access, NamesTheClientForTheFairQueue) {
   const auto mes = make_key("mes");
   const auto cell = make_key("cell");
   AppOptions options;
@@ -336,14 +336,14 @@ TEST(JobFiles, KeepAKeyToItsPart) {
 TEST(JobFiles, HoldTheBoundsOfADay) {
   const auto folder = ::testing::TempDir() + "tubecut_bounded_jobs";
   ASSERT_EQ(std::system(("rm -rf " + folder + " && mkdir " + folder).c_str()), 0);
-  for (int turn = 0; turn < 2; ++turn) {  // a new process counts what is there
+  for (int process = 0; process < 2; ++process) {  // a new process counts what is there
     JobFiles files(folder, {.files = 3, .bytes = 100, .key_files = 3, .key_bytes = 100});
     for (int i = 0; i < 20; ++i)
       files.write("2024-03-01", "mes", "job-" + std::to_string(i), "0123456789");
     for (int i = 0; i < 20; ++i) files.write("2024-03-02", "mes", "one", "0123456789");
-    for (int i = 0; i < 5000 && files.dropped() < (turn == 0 ? 27U : 37U); ++i)
+    for (int i = 0; i < 5000 && files.dropped() < (process == 0 ? 27U : 37U); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    EXPECT_EQ(files.dropped(), turn == 0 ? 27U : 37U);
+    EXPECT_EQ(files.dropped(), process == 0 ? 27U : 37U);
   }
   EXPECT_EQ(files_in(folder + "/2024-03-01").size(), 3U);
   EXPECT_EQ(std::filesystem::file_size(folder + "/2024-03-02/mes~one.jsonl"), 100U);

@@ -43,7 +43,7 @@ TEST(FairQueue, IsFirstInFirstOutForNewcomers) {
   }
 }
 
-/// However many jobs one client has waiting, another's next job is at most one turn away.
+/// However many jobs one client has waiting, another's next job is at most one job away.
 TEST(FairQueue, ClientsShareSlotsFairly) {
   FairQueue queue;
   for (int i = 0; i < 1000; ++i) queue.push(job("greedy"));
@@ -57,8 +57,8 @@ TEST(FairQueue, ClientsShareSlotsFairly) {
   }
 }
 
-/// Clients with work at any time are served in turn, however much each of them has waiting.
-TEST(FairQueue, ServesClientsInTurn) {
+/// Clients with work at any time are served alternately, however much each of them has waiting.
+TEST(FairQueue, ServesClientsAlternately) {
   FairQueue queue;
   for (const auto* client : {"a", "b", "c"})
     for (int i = 0; i < (*client == 'a' ? 300 : 100); ++i) queue.push(job(client));
@@ -71,7 +71,7 @@ TEST(FairQueue, ServesClientsInTurn) {
 }
 
 /// A batch and a connection of the same client share as two clients would.
-TEST(FairQueue, LetsFlowsOfAClientTakeTurns) {
+TEST(FairQueue, ServesFlowsOfAClientAlternately) {
   FairQueue queue;
   const int batch = 0;
   const int single = 0;

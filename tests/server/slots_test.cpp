@@ -85,7 +85,7 @@ TEST(Slots, AreAllTakenByJobsThatComeTogether) {
 }
 
 /// Three clients that repeat as soon as they are answered, and one with a job of the other class.
-void expect_a_turn_among_endless_jobs(bool endless_are_short) {
+void expect_service_among_endless_jobs(bool endless_are_short) {
   std::atomic<bool> begun = false, over = false;
   std::atomic<Slots*> slots = nullptr;
   std::atomic<int> answered = 0;
@@ -110,8 +110,8 @@ void expect_a_turn_among_endless_jobs(bool endless_are_short) {
   over = true;
 }
 
-TEST(Slots, LongJobsAreNotStarved) { expect_a_turn_among_endless_jobs(true); }
-TEST(Slots, ShortJobsAreNotStarved) { expect_a_turn_among_endless_jobs(false); }
+TEST(Slots, LongJobsAreNotStarved) { expect_service_among_endless_jobs(true); }
+TEST(Slots, ShortJobsAreNotStarved) { expect_service_among_endless_jobs(false); }
 
 /// Long jobs hold every slot until the short ones are done.
 TEST(Slots, ShortJobsDoNotWaitForLongOnes) {
@@ -135,7 +135,7 @@ TEST(Slots, ShortJobsDoNotWaitForLongOnes) {
   }
 }
 
-/// The slot is called for the short job, and takes the long one, because its turn it is.
+/// The slot is called for the short job, and takes the long one, because that is served next.
 TEST(Slots, ShortJobsDoNotWaitForLongOnesThatComeWithThem) {
   for (int round = 0; round < 200; ++round) {
     std::atomic<int> short_ones = 0;
@@ -160,7 +160,7 @@ TEST(Slots, ShortJobsDoNotWaitForLongOnesThatComeWithThem) {
 }
 
 /// However many long jobs of a client wait, another's comes after the one that runs.
-TEST(Slots, LongJobsTakeTurnsByClient) {
+TEST(Slots, LongJobsAlternateByClient) {
   std::latch go(1);
   std::mutex mutex;
   std::vector<std::string> begun;
@@ -181,7 +181,7 @@ TEST(Slots, LongJobsTakeTurnsByClient) {
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(slots.offer(job_of(false, "modest")).taken);
   go.count_down();
   EXPECT_TRUE(comes([&] { return done == 24; }));
-  for (const std::size_t turn : {2, 4, 6}) EXPECT_EQ(begun.at(turn), "modest") << turn;
+  for (const std::size_t i : {2, 4, 6}) EXPECT_EQ(begun.at(i), "modest") << i;
 }
 
 /// The queue of long jobs is full.
