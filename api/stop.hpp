@@ -17,13 +17,13 @@ inline void ask() {
 /// Checks for a stop now and then, for loops whose iterations take much less than a microsecond.
 class Pace {
  public:
-  void turn() {
-    if (++turns_ % kTurns == 0) ask();
+  void tick() {
+    if (++ticks_ % kTicks == 0) ask();
   }
 
  private:
-  static constexpr std::size_t kTurns = 1024;
-  std::size_t turns_ = 0;
+  static constexpr std::size_t kTicks = 1024;
+  std::size_t ticks_ = 0;
 };
 
 }  // namespace tubecut::api

@@ -196,7 +196,7 @@ class Walk {
   void object(const Json& json, const std::string& path, bool lengths) {
     if (const auto* array = json.as<Json::Array>()) {
       for (std::size_t i = 0; i < array->size(); ++i) {
-        pace_.turn();
+        pace_.tick();
         const auto& one = (*array)[i];
         if (holds_more(one)) object(one, path + std::to_string(i) + "/", lengths);
         if (const auto* mm = one.as<double>(); lengths && mm != nullptr)

@@ -39,7 +39,7 @@ std::vector<double> tip_speed(const motion::ScheduleSpec& spec, const motion::Sc
   constexpr std::size_t kMean = 25;  // periods, over which the rounding of pulses averages out
   Pace pace;
   for (std::size_t i = kMean; i < path.phi.size(); ++i) {
-    pace.turn();
+    pace.tick();
     const std::size_t from = i - kMean;
     const double length =
         section ? std::hypot(path.x[i] - path.x[from], path.y[i] - path.y[from],

@@ -42,7 +42,7 @@ void put_integer(std::string& out, std::int64_t v) {
 void little_endian(std::string& out, std::span<const std::int32_t> values, std::size_t width) {
   Pace pace;
   for (const auto v : values) {
-    pace.turn();
+    pace.tick();
     char bytes[4];
     for (std::size_t i = 0; i < width; ++i)
       bytes[i] = static_cast<char>((static_cast<std::uint32_t>(v) >> (8 * i)) & 0xFFU);
@@ -56,7 +56,7 @@ void CborWriter::typed_array(std::span<const std::int32_t> values) {
   begin_item();
   Pace pace;
   const bool small = std::ranges::all_of(values, [&pace](std::int32_t v) {
-    pace.turn();
+    pace.tick();
     return v == static_cast<std::int16_t>(v);
   });
   const std::size_t width = small ? 2 : 4;

@@ -251,7 +251,7 @@ class NumberFinder final : public nlohmann::json_sax<nlohmann::json> {
   };
 
   bool next() {
-    pace_.turn();
+    pace_.tick();
     if (!tokens_.empty()) ++tokens_.back().index;
     return true;
   }

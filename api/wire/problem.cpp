@@ -176,7 +176,7 @@ std::vector<std::string> filled_in(const Json& body, const Json& request) {
     } else if (const auto* array = understood.as<Json::Array>()) {
       const auto* const own = given.as<Json::Array>();
       for (std::size_t i = 0; own != nullptr && i < std::min(own->size(), array->size()); ++i) {
-        pace.turn();
+        pace.tick();
         if ((*array)[i].as<Json::Object>() != nullptr)
           self(self, (*own)[i], (*array)[i], pointer + "/" + std::to_string(i));
       }

@@ -110,7 +110,7 @@ void Reader::finish() {
   for (const auto& name : known_)
     if (!has(name)) open.push_back(name);
   for (const auto& [name, value] : *object) {
-    pace_.turn();
+    pace_.tick();
     if (issues_->size() >= kIssuesNamed) return;
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
     auto hint = "known here: " + list(known_);
@@ -335,7 +335,7 @@ std::vector<double> Reader::column(std::string_view name, CountRange count, Rang
   Json::Array echo;
   echo.reserve(items->size());
   for (std::size_t i = 0; i < items->size(); ++i) {
-    pace_.turn();
+    pace_.tick();
     echo.push_back((*items)[i]);
     const auto value =
         checked(name, (*items)[i], range, std::string(name) + "/" + std::to_string(i));
@@ -359,7 +359,7 @@ std::vector<bool> Reader::flag_column(std::string_view name, CountRange count) {
   Json::Array echo;
   echo.reserve(items->size());
   for (std::size_t i = 0; i < items->size(); ++i) {
-    pace_.turn();
+    pace_.tick();
     echo.push_back((*items)[i]);
     const auto* value = (*items)[i].as<bool>();
     if (value == nullptr)
@@ -381,7 +381,7 @@ std::vector<std::string> Reader::text_column(std::string_view name, CountRange c
   Json::Array echo;
   echo.reserve(items->size());
   for (std::size_t i = 0; i < items->size(); ++i) {
-    pace_.turn();
+    pace_.tick();
     echo.push_back((*items)[i]);
     const auto* value = (*items)[i].as<std::string>();
     const bool text = value != nullptr && is_visible(*value, longest);
@@ -410,7 +410,7 @@ std::vector<std::pair<double, double>> Reader::pairs(std::string_view name, Coun
   Json::Array echo;
   echo.reserve(items->size());
   for (std::size_t i = 0; i < items->size(); ++i) {
-    pace_.turn();
+    pace_.tick();
     echo.push_back((*items)[i]);
     const auto step = std::string(name) + "/" + std::to_string(i);
     const auto* pair = (*items)[i].as<Json::Array>();

@@ -16,7 +16,7 @@ std::optional<std::vector<std::int32_t>> counts_of(const Json::Array& values) {
   out.reserve(values.size());
   Pace pace;
   for (const auto& value : values) {
-    pace.turn();
+    pace.tick();
     const auto* number = value.as<double>();
     if (number == nullptr || *number != std::trunc(*number) ||
         !(*number >= -2147483648.0 && *number <= 2147483647.0))

@@ -107,7 +107,7 @@ class Writer {
 
  private:
   void separate() {
-    pace_.turn();
+    pace_.tick();
     if (out_.size() >= kHashed && hash_) hash_so_far();
     if (!fresh_ && !cbor_) out_ += ',';
     fresh_ = false;

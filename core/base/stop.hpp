@@ -37,7 +37,10 @@ class StopScope {
 }
 
 /// Checks for cancellation in every 1024th iteration, for loops whose iterations take much less
-/// than a microsecond. `turn` counts from 0, so a loop that follows a cancelled one does nothing.
-[[nodiscard]] inline bool stops(std::size_t turn) { return turn % 1024 == 0 && stopped(); }
+/// than a microsecond. `iteration` counts from 0, so a loop that follows a cancelled one does
+/// nothing.
+[[nodiscard]] inline bool stops(std::size_t iteration) {
+  return iteration % 1024 == 0 && stopped();
+}
 
 }  // namespace tubecut

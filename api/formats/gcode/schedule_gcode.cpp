@@ -224,7 +224,7 @@ std::vector<std::int64_t> move_ends(const motion::Schedule& s, double tolerance)
   auto before = at.sums();
   Cones cones(before, 0);
   for (std::int64_t p = 1; p <= s.periods; ++p) {
-    pace.turn();
+    pace.tick();
     at.advance();
     if (!cones.hold(at.sums(), p)) {
       out.push_back(p - 1);

@@ -109,12 +109,12 @@ Mesh coloured(std::string name, const CutSolid& solid, const std::vector<double>
     const auto base = static_cast<std::uint32_t>(out.positions.size());
     for (std::size_t i = 0; i < n; ++i)
       for (const auto k : {from, to}) {
-        pace.turn();
+        pace.tick();
         out.positions.push_back(solid.rings[i][k]);
         out.colors.push_back(cut ? diverging(hue[i]) : steel);
       }
     for (const auto index : band_triangles(n, 2)) {
-      pace.turn();
+      pace.tick();
       out.indices.push_back(base + index);
     }
   };
@@ -129,7 +129,7 @@ std::vector<double> hues(const CutSolid& solid) {
   std::vector<double> out;
   Pace pace;
   for (const auto& r : solid.rings) {
-    pace.turn();
+    pace.tick();
     const auto &a = r[solid.cut_points - 2], &b = r[solid.cut_points - 1];
     const double across = b.head<2>().norm() - a.head<2>().norm();
     out.push_back(elementary::atan2(b.z() - a.z(), across) / (60.0 * kRadPerDeg));
@@ -279,7 +279,7 @@ std::string print_stl(const CutSolid& solid, const Caption& caption) {
   out.reserve(84 + 50 * mesh.triangles.size());
   Pace pace;
   for (const auto& t : mesh.triangles) {
-    pace.turn();
+    pace.tick();
     const auto& [a, b, c] = t;
     const auto n = normal(mesh.points[a], mesh.points[b], mesh.points[c]);
     for (int k = 0; k < 3; ++k) append_bytes(out, n[k]);

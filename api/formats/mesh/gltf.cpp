@@ -43,7 +43,7 @@ std::size_t length_of(const std::vector<BufferView>& binary) {
 void append_binary(std::string& out, const Mesh& mesh, Pace& pace) {
   const auto vectors = [&](const auto& all, const auto& of) {
     for (const auto& each : all) {
-      pace.turn();
+      pace.tick();
       const Eigen::Vector3f v = of(each);
       for (int i = 0; i < 3; ++i) append_bytes(out, v[i]);
     }
@@ -51,7 +51,7 @@ void append_binary(std::string& out, const Mesh& mesh, Pace& pace) {
   vectors(mesh.positions, metres);
   vectors(mesh.colors, [](const Eigen::Vector3f& color) { return color; });
   for (const auto index : mesh.indices) {
-    pace.turn();
+    pace.tick();
     append_bytes(out, index);
   }
 }
@@ -80,7 +80,7 @@ void accessors(const std::vector<Mesh>& meshes, Writer& w, Pace& pace) {
       if (a.part != 0) return;
       Eigen::Vector3f low = metres(a.mesh->positions.front()), high = low;
       for (const auto& p : a.mesh->positions) {
-        pace.turn();
+        pace.tick();
         low = low.cwiseMin(metres(p));
         high = high.cwiseMax(metres(p));
       }
@@ -205,7 +205,7 @@ std::vector<std::uint32_t> band_triangles(std::size_t rings, std::size_t across)
   Pace pace;
   for (std::size_t i = 0; i < rings; ++i)
     for (std::size_t k = 0; k + 1 < across; ++k) {
-      pace.turn();
+      pace.tick();
       const auto a = static_cast<std::uint32_t>(i * across + k);
       const auto b = static_cast<std::uint32_t>((i + 1) % rings * across + k);
       for (const auto v : {a, b, a + 1, b, b + 1, a + 1}) out.push_back(v);

@@ -116,7 +116,7 @@ class Builder {
 };
 
 /// The same loop seen from the other side.
-void turn(TubeSolid::Loop& loop) {
+void flip(TubeSolid::Loop& loop) {
   std::ranges::reverse(loop);
   for (auto& use : loop) use.second = !use.second;
 }
@@ -276,7 +276,7 @@ void Builder::rule_faces(const LaidWall& wall) {
       for (auto s = to; s-- > from;)
         if (wall.stations[s].vertex[k + 1]) loop.emplace_back(wall.span[k + 1][s], false);
       loop.emplace_back(lines[i], false);
-      if (!wall.along) turn(loop);
+      if (!wall.along) flip(loop);
       const TubeSolid::Ruled surface{wall.wall, k, knot(wall, from), knot(wall, to)};
       out_.faces.push_back({wall.name, surface, wall.along, true, {std::move(loop)}});
     }
@@ -327,7 +327,7 @@ Builder::Regions Builder::regions(std::size_t side) const {
 TubeSolid::Loop Builder::loop(std::size_t side, const Region& region) const {
   TubeSolid::Loop out;
   for (const auto i : region.border) out.push_back(borders_[side][i].use);
-  if (side == 0) turn(out);
+  if (side == 0) flip(out);
   return out;
 }
 

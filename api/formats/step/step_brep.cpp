@@ -24,13 +24,13 @@ class Printer {
     for (const auto& p : solid_.vertices)
       vertices.push_back(entities_.add("VERTEX_POINT(''," + step_ref(entities_.point(p)) + ")"));
     for (const auto& edge : solid_.edges) {
-      pace_.turn();
+      pace_.tick();
       const auto along = edge.circle ? circle(*edge.circle) : curve(edge.curve);
       edges.push_back(entities_.add("EDGE_CURVE(''," + step_ref(vertices[edge.from]) + "," +
                                     step_ref(vertices[edge.to]) + "," + step_ref(along) + ",.T.)"));
     }
     for (const auto& face : solid_.faces) {
-      pace_.turn();
+      pace_.tick();
       faces.push_back(print(face, edges));
       if (face.cut) cut_faces_.push_back(faces.back());
     }

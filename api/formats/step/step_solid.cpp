@@ -81,7 +81,7 @@ std::vector<Id> Printer::points(const TubeSolid::EdgeSpan& span) {
   const auto& spline = solid_.walls[span.wall];
   std::vector<Id> out;
   for (auto i = spline.knots[span.from].control; i <= spline.knots[span.to].control; ++i) {
-    pace_.turn();
+    pace_.tick();
     out.push_back(entities_.point(spline.points[span.edge][i]));
   }
   return out;
@@ -154,7 +154,7 @@ Id Printer::on_cylinder(Id curve, const TubeSolid::EdgeSpan& span,
   const double begins = cylinder.begins + kTwoPi * std::floor(middle / kTwoPi);
   std::vector<Id> points;
   for (auto i = first; i <= last; i += lines ? 3 : 1) {
-    pace_.turn();
+    pace_.tick();
     points.push_back(entities_.point(Eigen::Vector2d(flat[i].x() - begins, flat[i].y())));
   }
   const auto line =
@@ -340,7 +340,7 @@ void StepFile::assembly(const Product& product, const std::vector<Placed>& parts
   if (context_ == 0) context_ = add_units(e);
   std::vector<Id> places{e.placement({0, 0, 0})};
   for (const auto& part : parts) {
-    pace_.turn();
+    pace_.tick();
     // In separate statements, because within one expression each compiler numbers them in its own
     // order.
     const auto x = e.direction(part.rows.row(0)), z = e.direction(part.rows.row(2));

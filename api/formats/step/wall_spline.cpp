@@ -112,7 +112,7 @@ bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size
     }
     Pace pace;
     for (auto i = from + 1; i < to; ++i) {
-      pace.turn();
+      pace.tick();
       const auto& at = nodes[i].edges[k].space.at;
       if (!near(both.space, at, (nodes[i].along - a.along) / wide)) return false;
     }
