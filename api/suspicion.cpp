@@ -136,7 +136,7 @@ double distance_of_ends(const Json& member) {
 /// Metric lengths written in inches: 300 mm as 11.811. A single one may be chance.
 class MetricInInches {
  public:
-  void look(double value, const std::string& path) {
+  void check(double value, const std::string& path) {
     const double mm = std::abs(value);
     if (is_near(mm, kTyped, 1e-9)) return;
     const double meant = mm * kMmPerInch;
@@ -200,7 +200,7 @@ class Walk {
         const auto& one = (*array)[i];
         if (holds_more(one)) object(one, path + std::to_string(i) + "/", lengths);
         if (const auto* mm = one.as<double>(); lengths && mm != nullptr)
-          lengths_.look(*mm, path.substr(0, path.size() - 1));
+          lengths_.check(*mm, path.substr(0, path.size() - 1));
       }
       return;
     }
@@ -214,7 +214,7 @@ class Walk {
         suspect(path + name, *of, "rad", tenths(degrees_of(*of)), "deg");
       }
       const bool length = name.ends_with("_mm");
-      if (length && of != nullptr) lengths_.look(*of, path + name);
+      if (length && of != nullptr) lengths_.check(*of, path + name);
       if (holds_more(value)) object(value, path + name + "/", length);
     }
   }

@@ -90,13 +90,13 @@ bool add_hole(bevel::HoleSpec asked, Angle turn, FormWall& out) {
 
 }  // namespace
 
-Looks FormEnd::looks(std::size_t partner, double radius, double turned_by) const {
-  Looks out;
-  for (std::size_t k = 0; k < kLooks; ++k)
+PartnerHeights FormEnd::heights(std::size_t partner, double radius, double turned_by) const {
+  PartnerHeights out;
+  for (std::size_t k = 0; k < kHeightPhases; ++k)
     out[k] = joint::upper_sheet(
-        partners[partner],
-        joint::generator_at(
-            radius, kTwoPi * static_cast<double>(k) / static_cast<double>(kLooks) - turned_by));
+        partners[partner], joint::generator_at(radius, kTwoPi * static_cast<double>(k) /
+                                                               static_cast<double>(kHeightPhases) -
+                                                           turned_by));
   return out;
 }
 

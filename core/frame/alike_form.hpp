@@ -12,8 +12,8 @@
 namespace tubecut::frame::detail {
 
 /// The number of phases around the middle of the wall at which a partner's height is sampled.
-inline constexpr std::size_t kLooks = 16;
-using Looks = std::array<std::optional<double>, kLooks>;
+inline constexpr std::size_t kHeightPhases = 16;
+using PartnerHeights = std::array<std::optional<double>, kHeightPhases>;
 
 /// One end of a form, with each partner separately.
 struct FormEnd {
@@ -21,7 +21,7 @@ struct FormEnd {
   std::vector<std::optional<double>> perpendicular;  // in the end's frame, rad; empty: no side
   double left = 0.0;  // mean height of the contour on the bore; NaN if it is open
 
-  [[nodiscard]] Looks looks(std::size_t partner, double radius, double turned_by) const;
+  [[nodiscard]] PartnerHeights heights(std::size_t partner, double radius, double turned_by) const;
 };
 
 /// The data of a form that is known before its walls are computed: enough to find forms that

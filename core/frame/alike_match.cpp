@@ -13,12 +13,13 @@ namespace {
 constexpr double kResembles = 1.0;  // mm: tolerance at a few points, before the walls are compared
 constexpr double kHasASide =
     1.0;  // mm: height difference of a partner that defines a side, by which a part is turned
-constexpr std::size_t kRimLooks =
+constexpr std::size_t kRimPhases =
     3;  // the rim of a partner may hit one part and miss the other at this many phases
 
 /// Returns the height of one partner above another; empty when the height differences are not
 /// constant.
-std::optional<double> higher_by(const Looks& one, const Looks& other, double within) {
+std::optional<double> higher_by(const PartnerHeights& one, const PartnerHeights& other,
+                                double within) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   std::size_t on_one = 0;
   for (std::size_t k = 0; k < one.size(); ++k) {
@@ -27,7 +28,7 @@ std::optional<double> higher_by(const Looks& one, const Looks& other, double wit
     least = std::min(least, *one[k] - *other[k]);
     most = std::max(most, *one[k] - *other[k]);
   }
-  if (on_one > kRimLooks || most - least > within) return std::nullopt;
+  if (on_one > kRimPhases || most - least > within) return std::nullopt;
   return most < least ? 0.0 : 0.5 * (most + least);  // 0 if both miss all generators
 }
 
@@ -42,10 +43,10 @@ std::optional<Answered> answer(const FormEnd& end, const std::vector<std::string
                                double radius, double turned, double within) {
   Answered out{.which = std::vector<std::size_t>(keys.size()), .higher = 0.0};
   std::vector<bool> taken(to_keys.size(), false);
-  std::vector<Looks> others;
-  for (std::size_t j = 0; j < to_keys.size(); ++j) others.push_back(to.looks(j, radius, 0.0));
+  std::vector<PartnerHeights> others;
+  for (std::size_t j = 0; j < to_keys.size(); ++j) others.push_back(to.heights(j, radius, 0.0));
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    const auto seen = end.looks(i, radius, turned);
+    const auto seen = end.heights(i, radius, turned);
     std::optional<double> nearest;
     for (std::size_t j = 0; j < to_keys.size(); ++j) {
       if (taken[j] || keys[i] != to_keys[j]) continue;
@@ -140,10 +141,10 @@ Handle handle_of(const Side& side) {
     const auto& keys = room == 0 ? side.shape.start : side.shape.finish;
     for (std::size_t i = 0; i < keys.size(); ++i) {
       if (!end.perpendicular[i]) continue;
-      const auto looks = end.looks(i, side.form.middle(), 0.0);
+      const auto heights = end.heights(i, side.form.middle(), 0.0);
       double least = std::numeric_limits<double>::infinity(), most = -least;
       bool all = true;
-      for (const auto& z : looks) {
+      for (const auto& z : heights) {
         all = all && z.has_value();
         if (z) least = std::min(least, *z), most = std::max(most, *z);
       }

@@ -43,9 +43,9 @@ class Sweep {
       if (stopped()) return tl::unexpected(ErrorCode::cancelled);
       TRY(const auto found, section(joint_, omega(j)));
       sections_.push_back(found);
-      motion_.look_at(omega(j).rad(), found.dir);
-      for (int i = 0; i < points_.per_ruling; ++i) look_on_groove({j, i});
-      for (int i = 0; i < points_.root_levels; ++i) look_on_root_face({j, i});
+      motion_.select_ruling(omega(j).rad(), found.dir);
+      for (int i = 0; i < points_.per_ruling; ++i) bound_on_groove({j, i});
+      for (int i = 0; i < points_.root_levels; ++i) bound_on_root_face({j, i});
     }
     const auto groove = [this](At at) { return on_groove(at); };
     const auto root = [this](At at) { return on_root_face(at); };
@@ -80,7 +80,7 @@ class Sweep {
     return {{s.dir, joint_.root_radius, s.toe.y1 - level * joint_.root_height}, level};
   }
 
-  void look_on_groove(At at) {
+  void bound_on_groove(At at) {
     const WorkPoint p = on_groove(at).place;
     const LeastRange flank = motion_.range(p, Part::flank, motion_.at_blocks(p, Part::flank));
     deepest_.push_back({flank.low, at});
@@ -89,7 +89,7 @@ class Sweep {
     left_.push_back({-motion_.distance(p, Part::solid, flank.met.station), at, false});
   }
 
-  void look_on_root_face(At at) {
+  void bound_on_root_face(At at) {
     const WorkPoint p = on_root_face(at).place;
     root_.push_back({motion_.range(p, Part::solid, motion_.at_blocks(p, Part::solid)).low, at});
   }
@@ -106,7 +106,7 @@ class Sweep {
       const auto [bound, at, tight] = heap.back();
       heap.pop_back();
       const Point p = point_at(at);
-      motion_.look_at(omega(at.ruling).rad(), p.place.dir);
+      motion_.select_ruling(omega(at.ruling).rad(), p.place.dir);
       if (!tight) {
         const LeastRange range = motion_.range(p.place, part, motion_.at_blocks(p.place, part));
         heap.push_back({sign > 0.0 ? range.low : -range.met.value, at});

@@ -72,7 +72,7 @@ ToolMotion::ToolMotion(const Cone& cone, const Setup& setup, std::span<const Blo
   }
 }
 
-void ToolMotion::look_at(double omega, Direction dir) {
+void ToolMotion::select_ruling(double omega, Direction dir) {
   const auto n = Eigen::Index(blocks_.size());
   const auto first_at = [&](double from) {
     const double turns = std::floor(from / kTwoPi);
@@ -224,8 +224,8 @@ double ToolMotion::bend(const ToolFramePoint& from, const ToolFramePoint& to,
   return cone_.cos_k * slowest * slowest / (rho + apart) - acceleration;
 }
 
-void ToolMotion::look_between(const WorkPoint& point, Part part, const ToolFramePoint& here,
-                              double from, double to, LeastRange& out) const {
+void ToolMotion::search_between(const WorkPoint& point, Part part, const ToolFramePoint& here,
+                                double from, double to, LeastRange& out) const {
   const Step step = step_from(std::min(from, to));
   const ToolFramePoint there = in_tool_frame(point, part, to);
   const double most = acceleration(point, here, step), ahead = to - from;
@@ -256,7 +256,7 @@ LeastRange ToolMotion::range(const WorkPoint& point, Part part, const Least& bes
   if (between_ == Between::nothing) return out;
   const ToolFramePoint here = in_tool_frame(point, part, best.station);
   for (const double to : {best.station - 1.0, best.station + 1.0})
-    look_between(point, part, here, best.station, to, out);
+    search_between(point, part, here, best.station, to, out);
   return out;
 }
 

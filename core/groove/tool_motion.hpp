@@ -36,7 +36,7 @@ class ToolMotion {
   ToolMotion(const Cone& cone, const Setup& setup, std::span<const Block> blocks, Between between);
 
   /// Selects the ruling in direction `dir` at `omega` for the following points.
-  void look_at(double omega, Direction dir);
+  void select_ruling(double omega, Direction dir);
 
   /// Computes the minimum distance over the blocks.
   [[nodiscard]] Least at_blocks(const WorkPoint& point, Part part);
@@ -84,8 +84,8 @@ class ToolMotion {
                                     const Step& step) const;
   [[nodiscard]] double bend(const ToolFramePoint& from, const ToolFramePoint& to,
                             double acceleration) const;
-  void look_between(const WorkPoint& point, Part part, const ToolFramePoint& here, double from,
-                    double to, LeastRange& out) const;
+  void search_between(const WorkPoint& point, Part part, const ToolFramePoint& here, double from,
+                      double to, LeastRange& out) const;
   [[nodiscard]] Least by_golden_section(const WorkPoint& point, Part part, double low) const;
   [[nodiscard]] Least least_solid();
 

@@ -49,7 +49,7 @@ class WorstOf {
 };
 
 /// The input of the checks: the program as required and the counts as received.
-struct Looked {
+struct ReplayInput {
   const ProgramSpec& spec;
   const std::vector<ProgramCut>& cuts;
   const std::vector<Segment>& segments;
@@ -58,7 +58,7 @@ struct Looked {
 };
 
 /// Returns the number of borders at which the list of segments differs from the program.
-double wrong_borders(const Looked& l) {
+double wrong_borders(const ReplayInput& l) {
   const auto& segments = l.segments;
   auto expected = expected_segments(l.cuts);
   if (segments.size() == expected.size() + 1) expected.push_back({Kind::rapid, l.cuts.size() - 1});
@@ -95,7 +95,7 @@ std::int64_t lit(const Switch& tool, const std::vector<motion::Event>& events, s
 
 /// Returns the periods of cuts and marks in which their tool is off, and of all other segments in
 /// which a tool is on.
-double wrongly_lit(const Looked& l) {
+double wrongly_lit(const ReplayInput& l) {
   std::int64_t out = 0;
   for (const auto& s : l.segments) {
     const auto burning = lit(kTorch, l.events, s.from, s.to);
@@ -127,7 +127,7 @@ void add_up(const motion::Counted& stretch, std::vector<std::int64_t>& sums) {
 /// Checks between the cuts: position and duration of the pierce, and the tip's height on the way.
 class Between {
  public:
-  explicit Between(const Looked& l) : l_(l), machine_(l.spec.machine) {
+  explicit Between(const ReplayInput& l) : l_(l), machine_(l.spec.machine) {
     const auto lift = motion::lift_of(machine_);
     if (lift) {
       pivot_ = lift->pivot_length;
@@ -231,7 +231,7 @@ class Between {
     return counted.periods;
   }
 
-  const Looked& l_;
+  const ReplayInput& l_;
   motion::Machine machine_;  // with the standoff of the pierce
   double pivot_ = 0.0;
   bool lifts_ = false;
@@ -244,7 +244,7 @@ class Between {
 /// that continues, or the first.
 class SeenTabs {
  public:
-  explicit SeenTabs(const Looked& l) : l_(l) {
+  explicit SeenTabs(const ReplayInput& l) : l_(l) {
     for (std::size_t k = 0; k < l.cuts.size(); ++k) {
       const auto& cut = l.cuts[k];
       const bool any = cut.way.points.stretch;
@@ -306,14 +306,14 @@ class SeenTabs {
     return cut.stretch == 0 ? k + cut.stretches - 1 : k - 1;
   }
 
-  const Looked& l_;
+  const ReplayInput& l_;
   std::vector<Trail> trails_ = {};
 };
 
 /// Runs all checks that are possible if the segments are the program's.
 ///
 /// Errors  those of motion::prepare_cut.
-Result<void> examine(const Looked& l, bool own, std::vector<Check>& out, double& deviation) {
+Result<void> examine(const ReplayInput& l, bool own, std::vector<Check>& out, double& deviation) {
   WorstOf all;
   Between between(l);
   SeenTabs tabs(l);
@@ -361,12 +361,12 @@ std::vector<Check> verify(const ProgramSpec& spec, const ProgramSchedule& schedu
     counted.counts.emplace_back(axis.counts);
     counted.start.push_back(axis.start);
   }
-  const Looked looked{spec, *cuts, schedule.segments, whole.events, counted};
+  const ReplayInput input{spec, *cuts, schedule.segments, whole.events, counted};
   std::vector<Check> out{{"I1", 0.0, 0.0, "pulses"},
-                         {"segments_join", wrong_borders(looked), 0.0, ""}};
+                         {"segments_join", wrong_borders(input), 0.0, ""}};
   double deviation = 0.0;
   if (!out.back().passed()) return out;
-  return examine(looked, true, out, deviation) ? out : misfit;
+  return examine(input, true, out, deviation) ? out : misfit;
 }
 
 Result<motion::Replay> replay(const ProgramReplaySpec& spec) {
@@ -378,13 +378,13 @@ Result<motion::Replay> replay(const ProgramReplaySpec& spec) {
   const auto expected = expected_segments(cuts);
   for (std::size_t k = 0; k < segments.size(); ++k)
     segments[k].cut = k < expected.size() ? expected[k].cut : cuts.size() - 1;
-  const Looked looked{spec.job, cuts, segments, spec.events, counted};
+  const ReplayInput input{spec.job, cuts, segments, spec.events, counted};
   motion::Replay out;
   out.invariants = {{"I1", whole.worst, 0.0, "pulses"},
-                    {"segments_join", wrong_borders(looked), 0.0, ""}};
+                    {"segments_join", wrong_borders(input), 0.0, ""}};
   motion::rebuild(cut_job(spec.job, cuts.front(), 0.0), counted, out);
   if (out.invariants.back().passed()) {
-    if (auto ok = examine(looked, false, out.invariants, out.deviation); !ok)
+    if (auto ok = examine(input, false, out.invariants, out.deviation); !ok)
       return tl::unexpected<Error>(ok.error());
   }
   if (stopped()) return fail({.code = ErrorCode::cancelled});

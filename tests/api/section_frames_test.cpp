@@ -276,7 +276,7 @@ struct Found {
 };
 
 /// Looks at each stated joint that is no mitre: the end of the branch that is nearer to the chord.
-Found look(const Model& model, const Json& answer) {
+Found search(const Model& model, const Json& answer) {
   std::map<std::string, const Tube*> tubes;
   for (const auto& t : model.tubes) tubes[t.id] = &t;
   std::map<std::string, const Json*> parts, places;
@@ -329,7 +329,7 @@ TEST_P(SectionFrames, HaveEveryPartWhereItBelongs) {
       EXPECT_EQ(reason, api::Json{"root_opens"})
           << seed << " " << api::dump(at(answer.body, "warnings")).substr(0, 1500);
     if (::testing::Test::HasFailure()) return;
-    const auto found = look(model, answer.body);
+    const auto found = search(model, answer.body);
     EXPECT_LT(found.deepest, 1e-3) << seed;
     EXPECT_LT(found.farthest, 0.1) << seed;  // the sampling's tolerance
     joints += found.joints;
@@ -384,8 +384,8 @@ TEST(SectionFrames, TurnedMembersShareTheirPart) {
     }
     const auto answer = post("/v1/frames", request_of(model));
     EXPECT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
-    EXPECT_LT(look(model, answer.body).deepest, 1e-4);
-    EXPECT_LT(look(model, answer.body).farthest, 0.1);
+    EXPECT_LT(search(model, answer.body).deepest, 1e-4);
+    EXPECT_LT(search(model, answer.body).farthest, 0.1);
     return number(answer.body, "result/totals/parts");
   };
   EXPECT_EQ(parts({0, 1, 0}, box(40, 40, 3)), 3.0);  // the chords, with other marks, and one bar
@@ -400,7 +400,7 @@ TEST(SectionFrames, RoundedMembersShareTheirParts) {
   const auto parts = [](const Model& model) {
     const auto answer = post("/v1/frames", request_of(model));
     EXPECT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
-    const auto found = look(model, answer.body);
+    const auto found = search(model, answer.body);
     EXPECT_LT(found.deepest, 0.021);  // alike_within_mm, and 0.001
     EXPECT_LT(found.farthest, 0.121);
     for (const auto& row : *at(answer.body, "result/cut_list").as<Json::Array>())

@@ -75,8 +75,8 @@ TUBECUT_INLINE void begin(const Round& c, const Rise& s, const Group& axis, cons
 
 /// The requirement of the surface along a circle is a concave function of the angle around the
 /// beam: it is largest where the surface's own slope equals the beam's.
-TUBECUT_INLINE void look_again(const Round& c, const Rise& s, const Group& axis, Search& out,
-                               std::size_t n) {
+TUBECUT_INLINE void refine(const Round& c, const Rise& s, const Group& axis, Search& out,
+                           std::size_t n) {
   for (std::size_t l = 0; l < n; ++l) {
     const double at = out.x[l];
     const double pull = (s.rate + at * axis.slope[l]) / std::sqrt((c.rho - at) * (c.rho + at));
@@ -123,7 +123,7 @@ TUBECUT_INLINE void search(const Round& c, const Rise& s, const Seen& from, cons
                            Group& axis, std::size_t n) {
   Search at{};
   begin(c, s, axis, from, to, at, n);
-  for (int k = 0; k < c.rounds; ++k) look_again(c, s, axis, at, n);
+  for (int k = 0; k < c.rounds; ++k) refine(c, s, axis, at, n);
   if (c.rounds == 0) halve(c, s, axis, at, n);
   angles(c, at, n);
   for (std::size_t l = 0; l < n; ++l) {

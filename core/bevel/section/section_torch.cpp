@@ -19,9 +19,9 @@ constexpr double kNearJump[] = {0.5, 0.95, 1.05, 1.4, 1.8, 2.4, 3.2, 4.2, 5.2};
 constexpr double kBend = 1e-3;  // mm: a straighter need is not divided
 constexpr int kDivisions = 3;   // of an interval, each into halves
 constexpr int kSpared = 6;      // rounds of lowering rows that the beam enters
-constexpr double kLooked[] = {0.0, 0.04, 0.1, 0.2, 0.35,
-                              0.5, 0.65, 0.8, 0.9, 0.96};  // shares of a gap
-constexpr double kEntered = 1e-4;                          // mm
+constexpr double kSampledShares[] = {0.0, 0.04, 0.1, 0.2, 0.35,
+                                     0.5, 0.65, 0.8, 0.9, 0.96};  // shares of a gap
+constexpr double kEntered = 1e-4;                                 // mm
 constexpr double kShortest = 5e-4;  // mm along s: no shorter interval is divided
 
 /// The drop that a place between two rows needs.
@@ -149,7 +149,7 @@ class Torch {
       out = {};
       std::vector<Need> entered;
       for (std::size_t i = 0; i < table_.at.size() && !stopped(); ++i)
-        for (const double share : kLooked) {
+        for (const double share : kSampledShares) {
           if (share > 0.0 && !(surface_.width(i) > 0.0)) continue;
           const auto line = surface_.line(i, share);
           const Need here{i, share, 0.0};

@@ -186,7 +186,7 @@ void make_alike(const TableSetup& g, std::span<const std::size_t> at, Rows& rows
 
 /// Returns the number of rows that `make_alike` computes in 1 ms, or with a rectangular tube in
 /// 1.3.
-std::size_t rows_between_looks(std::span<const joint::PreparedCutter> cutters) {
+std::size_t rows_between_stop_checks(std::span<const joint::PreparedCutter> cutters) {
   constexpr std::size_t kWithoutElbow = 256, kOfOneElbow = 128;  // searched, row by row
   const auto elbows =
       static_cast<std::size_t>(std::ranges::count_if(cutters, [](const joint::PreparedCutter& c) {
@@ -291,7 +291,7 @@ Result<Rows> rows(const TableSetup& g, const std::vector<double>& also, const Ro
     else
       out.points[i] = point(g, node.phi, joint::hits_at(g.root, node).before, node.before, node.z);
   }
-  const auto block_rows = rows_between_looks(g.root.cutters);
+  const auto block_rows = rows_between_stop_checks(g.root.cutters);
   for (std::span<const std::size_t> left = together; !left.empty();) {
     if (stopped()) return fail({.code = ErrorCode::cancelled});
     const auto block = left.first(std::min(block_rows, left.size()));

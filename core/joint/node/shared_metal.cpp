@@ -19,9 +19,9 @@ constexpr double kSmall = 0.5 * kHalf;        // mm: smaller cells are not divid
 constexpr double kFar = 1e7;                  // mm: beyond every member
 constexpr double kAlong =
     1e-9;  // sine: over 10 m the distance of the axes changes by less than 1e-5 mm
-constexpr double kOpposite = 1e-12;         // of two unit normals, 1 + their product
-constexpr int kAround = 16;                 // initial cells
-constexpr std::size_t kBetweenLooks = 256;  // cells, about 50 us
+constexpr double kOpposite = 1e-12;              // of two unit normals, 1 + their product
+constexpr int kAround = 16;                      // initial cells
+constexpr std::size_t kBetweenStopChecks = 256;  // cells, about 50 us
 
 struct Interval {
   double from, to;
@@ -119,7 +119,7 @@ class Search {
                         std::max(0.0, half - kHalf),
                         {-kFar, kFar}});
     for (std::size_t next = 0; next < cells_.size() && next < kMostCells; ++next) {
-      if (next % kBetweenLooks == 0 && stopped()) return std::nullopt;
+      if (next % kBetweenStopChecks == 0 && stopped()) return std::nullopt;
       const auto cell = cells_[next];  // a copy, because the list grows
       if (auto found = check_cell(cell)) return found;
     }

@@ -89,8 +89,8 @@ FilteredProfiles::FilteredProfiles(const PathLimits& limits)
   }
 }
 
-/// Computes maxima over the filter's windows, from the fastest profile so far.
-void FilteredProfiles::look_round(const std::vector<double>& fastest, double filter) {
+/// Finds the maxima over the filter's windows, from the fastest profile so far.
+void FilteredProfiles::find_window_maxima(const std::vector<double>& fastest, double filter) {
   for (std::size_t j = 0; j < root_.size(); ++j) root_[j] = std::sqrt(fastest[j]);
   reach_of(root_, limits_.d, filter, windows_);
   for (std::size_t i = 0; i < bound_.size(); ++i) {
@@ -233,7 +233,7 @@ Timing FilteredProfiles::refined(const std::vector<double>& without_jerk, double
   std::vector<double> x;
   for (std::size_t i = 0; i < optimism.size(); ++i) maxima_.set_optimism(i, optimism[i]);
   for (int round = 0; round < rounds && !stopped(); ++round) {
-    look_round(fastest, filter);
+    find_window_maxima(fastest, filter);
     x = solve(x, fastest);
     if (stopped()) break;
     const double time = duration(x, limits_.d) + filter;

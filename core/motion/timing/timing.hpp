@@ -54,7 +54,7 @@ class FilteredProfiles {
   template <class Solve>
   Timing refined(const std::vector<double>& without_jerk, double filter, const Optimism& optimism,
                  int rounds, const Solve& solve);
-  void look_round(const std::vector<double>& fastest, double filter);
+  void find_window_maxima(const std::vector<double>& fastest, double filter);
   void bound_acceleration(double filter, bool by_axes);
   void tighten(const std::vector<double>& x);
   void bound_edges(double filter);

@@ -147,30 +147,30 @@ class Scan {
     const double phi = mix(t_.phi[i], turned(i + 1), u), z = height(i, u, rho);
     const auto n = static_cast<std::ptrdiff_t>(torch_.size());
     double best = std::abs(off(at(i, u), rho, phi, z));
-    std::vector<std::pair<std::ptrdiff_t, double>> looked;
+    std::vector<std::pair<std::ptrdiff_t, double>> measured;
     const auto pose = [&](std::ptrdiff_t k) {
       auto p = torch_[static_cast<std::size_t>((k % n + n) % n)];
       p.phi += kTwoPi * std::floor(static_cast<double>(k) / static_cast<double>(n));
       return p;
     };
-    const auto look = [&](std::ptrdiff_t k) {
+    const auto measure = [&](std::ptrdiff_t k) {
       const auto p = pose(k);
       if (rho * std::sin(std::min(kPi / 2, std::abs(phi - p.phi))) > best) return false;
       const double d = std::abs(off(p, rho, phi, z));
-      looked.emplace_back(k, d);
+      measured.emplace_back(k, d);
       best = std::min(best, d);
       return true;
     };
     const auto start = static_cast<std::ptrdiff_t>(near);
-    for (auto k = start; k < start + n / 2 && look(k); ++k) {
+    for (auto k = start; k < start + n / 2 && measure(k); ++k) {
     }
-    for (auto k = start - 1; k > start - n / 2 && look(k); --k) {
+    for (auto k = start - 1; k > start - n / 2 && measure(k); --k) {
     }
     double sign = off(at(i, u), rho, phi, z) < 0.0 ? -1.0 : 1.0;
     // Next to all that are nearly as near: spaced half / 8, so the nearest may lie half / 128
     // nearer.
     const double nearly = best + half_ / 64;
-    for (const auto& [k, d0] : looked) {
+    for (const auto& [k, d0] : measured) {
       if (d0 > nearly) continue;
       for (const auto from : {k - 1, k}) {
         const auto a = pose(from), b = pose(from + 1);

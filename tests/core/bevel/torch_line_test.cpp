@@ -35,7 +35,7 @@ struct Seen {
   double gouge_off, left_off;
 };
 
-Seen look(const TableSpec& spec, const Table& t) {
+Seen observe(const TableSpec& spec, const Table& t) {
   const beam_oracle::Scan scan(spec, t);
   const auto proof = t.torch_line;
   auto found = scan.worst(std::min(spec.kerf / 4, 1.0));
@@ -82,7 +82,7 @@ TEST(TorchLine, StaysOutOfTheThreeJointsItGouged) {
   for (const auto* spec : {&lifted, &steep, &small}) {
     const auto got = table(*spec);
     ASSERT_TRUE(got);
-    expect_clear(look(*spec, *got), brief(2.0 * spec->target.outer_radius) + " mm");
+    expect_clear(observe(*spec, *got), brief(2.0 * spec->target.outer_radius) + " mm");
   }
 }
 
@@ -221,7 +221,7 @@ TEST(TorchLine, StaysOutOfRandomTables) {
       EXPECT_LE(got->torch_line.gouge, 1e-4);
       continue;
     }
-    const auto s = look(spec, *got);
+    const auto s = observe(spec, *got);
     gouge = std::max(gouge, s.found.gouge);
     apart = std::max(apart, s.gouge_off);
     apart_left = std::max(apart_left, s.left_off);
@@ -255,7 +255,7 @@ TEST(TorchLine, StaysOutOfThePartNextToASwing) {
     if (n != 735 && n != 749 && n != 1575) continue;
     const auto got = table(spec);
     ASSERT_TRUE(got) << n;
-    const auto s = look(spec, *got);
+    const auto s = observe(spec, *got);
     EXPECT_LE(s.found.gouge, 5e-3) << n;
     EXPECT_LE(s.gouge_off, 1e-3) << n;
   }

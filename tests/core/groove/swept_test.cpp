@@ -169,37 +169,38 @@ class FullCheck {
   [[nodiscard]] Extreme least(const Section& at, double s, double z, double level,
                               bool solid) const {
     Extreme best{.value = kFar, .omega = at.omega, .level = level};
-    const auto look = [&](double station) {
+    const auto measure = [&](double station) {
       return Extreme{distance(at, s, z, station, solid), at.omega, level, station};
     };
     for (std::size_t i = 0; i < motion_.size(); ++i) {
       const double apart = motion_[i].omega - at.omega.rad();
       if (std::abs(apart - kTwoPi * std::round(apart / kTwoPi)) > 0.25 * kTwoPi) continue;
-      if (const Extreme here = look(double(i)); here.value < best.value) best = here;
+      if (const Extreme here = measure(double(i)); here.value < best.value) best = here;
     }
     if (between_ == Between::nothing) return best;
     const double block = best.station;
     for (const double low : {block - 1.0, block}) {
-      const Extreme found = golden(low, solid ? 37 : 21, look);
+      const Extreme found = golden(low, solid ? 37 : 21, measure);
       if (found.value < best.value) best = found;
     }
     return best;
   }
 
-  template <class Look>
-  static Extreme golden(double low, int steps, const Look& look) {
+  template <class Measure>
+  static Extreme golden(double low, int steps, const Measure& measure) {
     constexpr double kGolden = 0.6180339887498949;
     double high = low + 1.0;
-    Extreme left = look(high - kGolden * (high - low)), right = look(low + kGolden * (high - low));
+    Extreme left = measure(high - kGolden * (high - low)),
+            right = measure(low + kGolden * (high - low));
     for (int i = 0; i < steps; ++i) {
       if (left.value < right.value) {
         high = right.station;
         right = left;
-        left = look(high - kGolden * (high - low));
+        left = measure(high - kGolden * (high - low));
       } else {
         low = left.station;
         left = right;
-        right = look(low + kGolden * (high - low));
+        right = measure(low + kGolden * (high - low));
       }
     }
     return left.value < right.value ? left : right;

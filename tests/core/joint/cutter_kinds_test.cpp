@@ -83,7 +83,7 @@ double value(const Trig<2>& t, double phi) {
 }
 
 TEST(CutterKinds, LeaveTheirGeneratorsAtTheirOwnSurface) {
-  int looked = 0;
+  int hits = 0;
   for_every_kind(1, [&](oracle::Random& random, const Case& c) {
     for (int k = 0; k < 60; ++k) {
       const double phi = random.any(0, kTwoPi);
@@ -95,7 +95,7 @@ TEST(CutterKinds, LeaveTheirGeneratorsAtTheirOwnSurface) {
           EXPECT_GT(c.distance(on(line, random.any(-3, 3) * c.scale)), -1e-9 * c.scale);
         continue;
       }
-      ++looked;
+      ++hits;
       EXPECT_EQ(continued_sheet(c.prepared, line), *top);
       const double size = rounding_size(c.prepared, c.rho);
       EXPECT_GT(size, 0.0);
@@ -126,7 +126,7 @@ TEST(CutterKinds, LeaveTheirGeneratorsAtTheirOwnSurface) {
       }
     }
   });
-  EXPECT_GT(looked, 2000);
+  EXPECT_GT(hits, 2000);
 }
 
 TEST(CutterKinds, AreMetBetweenTheirSilhouettes) {
