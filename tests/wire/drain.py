@@ -28,7 +28,7 @@ def job():
 
 
 def kept_alive(binary):
-    """Requests on connections kept alive that reach the socket just before the signal: more than the port looks at in a turn."""
+    """Requests on connections kept alive that reach the socket just before the signal: more than the port reads before it yields."""
     with Service(binary, "--queue", str(KEPT), "--budget-s", "60") as service:
         socks = [connect(service.port) for _ in range(KEPT)]
         request = get("/v1/version")

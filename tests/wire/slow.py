@@ -13,7 +13,7 @@ from service import Service, connect, exchange, get, head, post, receive
 
 P99_MS = 50.0
 PATIENCE_S = 1.0
-COME_BACK = 16  # connections in one turn
+COME_BACK = 16  # connections in one step
 AT_ADMIN = 200  # half-sent heads that the admin port must bear
 
 
@@ -31,7 +31,7 @@ def probe(port):
 
 
 class Slow:
-    """A socket that sends `first`, then `rest` at each turn; with no rest it takes its answer and is idle."""
+    """A socket that sends `first`, then `rest` at each step; with no rest it takes its answer and is idle."""
 
     def __init__(self, port, first, rest):
         self.port, self.first, self.rest = port, first, rest
@@ -44,7 +44,7 @@ class Slow:
             receive(self.sock, enough=1, patience=PATIENCE_S)
         self.sock.setblocking(False)
 
-    def turn(self):
+    def step(self):
         """Sends a byte; says whether the server had ended the connection."""
         try:
             if self.rest:
@@ -75,19 +75,19 @@ def main():
         traffic = subprocess.Popen([load, str(seconds), "4", str(service.port), good.name, "--rate", "200"],
                                    stdout=subprocess.PIPE, text=True)
         until = time.monotonic() + seconds
-        turn = 0
+        step = 0
         while time.monotonic() < until:
             probes.append(probe(service.admin_port))
             for member in away[:COME_BACK]:
                 member.begin()
                 crowd.append(member)
             away = away[COME_BACK:]
-            for member in crowd[turn % 10::10]:  # each about once in ten turns
-                if member.turn():
+            for member in crowd[step % 10::10]:  # each about once in ten steps
+                if member.step():
                     crowd.remove(member)
                     away.append(member)
                     ended += 1
-            turn += 1
+            step += 1
         told = json.loads(traffic.communicate()[0])
         resident = service.memory("VmRSS")
         refused = {} if service.stock else service.refused()
