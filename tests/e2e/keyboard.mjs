@@ -72,10 +72,9 @@ export const byKeys = (page) => {
       await go(selector, 'Control+a');
       await page.keyboard.type(text);
     },
-    // By its name, because a list that acts at once acts at each arrow.
-    choose: async (selector, name) => {
+    choose: async (selector, value) => {
       await go(selector);
-      await page.keyboard.type(name);
+      await arrow(page, value, ['ArrowDown', 'ArrowUp'], async () => await page.locator(selector).inputValue() === value);
     },
     // Tab reaches the checked one of a group.
     pick: async (name, value) => {

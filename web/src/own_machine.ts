@@ -90,6 +90,7 @@ export class OwnMachine {
   readonly others = signal<Issue[]>([]); // errors that are at no field of the two files
   readonly trouble = signal<string>(''); // no answer, or a file that is neither
   readonly changes = signal(0);
+  readonly started = signal<{part: Part; name: string} | undefined>(undefined); // until the next change
   private readonly latest = new Latest();
 
   constructor(
@@ -134,6 +135,7 @@ export class OwnMachine {
   /** Begins with one that the service lists. */
   startFrom(part: Part, name: string): void {
     this.put(part, this.copied(part, name));
+    this.started.value = {part, name};
   }
 
   put(part: Part, value: Row): void {
@@ -168,6 +170,7 @@ export class OwnMachine {
 
   private changed(): void {
     this.changes.value += 1;
+    this.started.value = undefined;
     try {
       localStorage.setItem(key, JSON.stringify(this.form.body));
     } catch {

@@ -149,6 +149,31 @@ export const checks = {
     }
   },
 
+  'an arrow key in the list of starts changes no value; its button does, and undo brings the edits back': async (given) => {
+    const page = await own(given);
+    for (const part of ['machine', 'post']) {
+      await field(page, `/${part}/name`).fill('edited');
+      const [list, take] = [page.locator(`[data-start=${part}]`), page.locator(`[data-take=${part}]`)];
+      assert.ok(await take.isDisabled(), 'there is nothing to start from yet');
+      await list.focus();
+      for (let i = 0; i < 3; ++i) await page.keyboard.press('ArrowDown');
+      const name = await list.inputValue();
+      assert.notEqual(name, '');
+      assert.equal(await field(page, `/${part}/name`).inputValue(), 'edited');
+      await page.keyboard.press('Tab');
+      await page.keyboard.press('Enter');
+      await page.locator('.started', {hasText: name}).waitFor();
+      assert.equal(await field(page, `/${part}/name`).inputValue(), `my_${part}`);
+      if (part === 'machine') await page.locator('#unstart').click();
+      else await page.keyboard.press('Control+z');
+      assert.equal(await field(page, `/${part}/name`).inputValue(), 'edited');
+      assert.ok(await take.evaluate((node) => node === document.activeElement), 'the button has the focus');
+      assert.equal(await page.locator('.started').innerText(), '');
+      await state(page, part, 'ok');
+    }
+    await clean(page);
+  },
+
   'each machine and each post of the service is a start without errors': async (given) => {
     const page = await own(given);
     for (const part of ['machine', 'post']) {
@@ -158,6 +183,7 @@ export const checks = {
         await field(page, `/${part}/name`).fill('');
         await state(page, part, '1 error');
         await page.locator(`[data-start=${part}]`).selectOption(name);
+        await page.locator(`[data-take=${part}]`).click();
         await state(page, part, 'ok');
         assert.equal(await field(page, `/${part}/name`).inputValue(), `my_${part}`);
       }

@@ -186,6 +186,7 @@ async function owner(walk) {
   await walk.sound('own machine');
   // 2. The post to start from.
   await walk.hands.choose('[data-start=post]', 'linuxcnc');
+  await walk.press('[data-take=post]');
   await page.locator('#own-program').waitFor();
   // 3. A limit from the data sheet, at first with an error.
   await walk.hands.enter(field('/machine/axes/0/v_max'), '-3');

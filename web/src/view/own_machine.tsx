@@ -13,6 +13,7 @@ import './own_machine.css';
 
 const names: Record<Part, string> = {machine: later('Machine'), post: later('Post')};
 const starts: Record<Part, string> = {machine: later('Machine to start from'), post: later('Post to start from')};
+const takes: Record<Part, string> = {machine: later('Start from this machine'), post: later('Start from this post')};
 const downloads: Record<Part, string> = {machine: later('Download the machine'), post: later('Download the post')};
 const command = 'tubecut-server --machines machines --posts posts';
 
@@ -27,7 +28,7 @@ export function OwnMachinePage() {
     const pressed = event.key.toLowerCase();
     if (!(event.ctrlKey || event.metaKey) || event.altKey || (pressed !== 'z' && pressed !== 'y')) return;
     event.stopPropagation();
-    if (!(event.target as HTMLElement).closest('#form')) return;
+    if ((event.target as HTMLElement).closest('.text textarea')) return; // it has an undo of its own
     event.preventDefault();
     own.form.go(pressed === 'y' || event.shiftKey ? 1 : -1);
   };
@@ -55,7 +56,6 @@ export function OwnMachinePage() {
 
 function Start({own}: {own: OwnMachine}) {
   const input = useRef<HTMLInputElement>(null);
-  const shelves = own.shelves.value;
   return (
     <section class="block" aria-labelledby="own-start">
       <h2 id="own-start">{t('1. Machine and post')}</h2>
@@ -63,15 +63,7 @@ function Start({own}: {own: OwnMachine}) {
       <p>{t('The post has the words of the control: letters, senses and zeros of the axes, comments, feeds, torch. Start from the most similar one.')}</p>
       <div class="starts">
         {parts.map((part) => (
-          <label key={part}>
-            <span class="name">{t(starts[part])}</span>
-            <select data-start={part} value="" onChange={({currentTarget}) => currentTarget.value && own.startFrom(part, currentTarget.value)}>
-              <option value="">–</option>
-              {shelves[part].map(({name}) => (
-                <option key={name}>{name}</option>
-              ))}
-            </select>
-          </label>
+          <Shelf key={part} own={own} part={part} />
         ))}
         <button type="button" onClick={() => input.current?.click()}>
           {t('Open file')}
@@ -90,7 +82,50 @@ function Start({own}: {own: OwnMachine}) {
           }}
         />
       </div>
+      <Started own={own} />
     </section>
+  );
+}
+
+/** The list acts by its button only, because the arrow keys pass through each of its names. */
+function Shelf({own, part}: {own: OwnMachine; part: Part}) {
+  const [name, choose] = useState('');
+  return (
+    <span class="start">
+      <label>
+        <span class="name">{t(starts[part])}</span>
+        <select data-start={part} value={name} onChange={({currentTarget}) => choose(currentTarget.value)}>
+          <option value="">–</option>
+          {own.shelves.value[part].map((each) => (
+            <option key={each.name}>{each.name}</option>
+          ))}
+        </select>
+      </label>
+      <button type="button" data-take={part} disabled={!name} onClick={() => own.startFrom(part, name)}>
+        {t(takes[part])}
+      </button>
+    </span>
+  );
+}
+
+/** Which one the form has begun with, and the way back. */
+function Started({own}: {own: OwnMachine}) {
+  const started = own.started.value;
+  const undo = () => {
+    document.querySelector<HTMLElement>(`[data-take=${started?.part}]`)?.focus(); // this button disappears
+    own.form.go(-1);
+  };
+  return (
+    <p class="started" role="status">
+      {started && (
+        <>
+          {t('The form now has the values of {name}.', {name: started.name})}{' '}
+          <button type="button" id="unstart" title={t('Undo (Ctrl+Z)')} onClick={undo}>
+            {t('Undo')}
+          </button>
+        </>
+      )}
+    </p>
   );
 }
 
