@@ -19,6 +19,15 @@ export async function tabTo(page, selector, {key = 'Tab', most = 60} = {}) {
   }
   throw new Error(`no ${selector} within ${most} steps`);
 }
+
+/** The next Tab leads to the first stop of the page. */
+export const fromStart = (page) => page.evaluate(() => {
+  document.activeElement.blur();
+  document.body.tabIndex = -1;
+  document.body.focus();
+  document.body.removeAttribute('tabindex');
+  scrollTo(0, 0);
+});
 export const press = (page, selector, more) => tabTo(page, selector, more).then(() => page.keyboard.press('Enter'));
 
 /** Focuses the selector by the keyboard, by the shorter way round the page. */

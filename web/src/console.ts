@@ -46,6 +46,7 @@ export class Console {
   readonly formShown = signal(false);
   readonly home = signal(false); // a page without a job is shown: the first one, or the one that `place` names
   readonly place = signal<Place>('start');
+  readonly ownWrong = signal(false); // the page of the own machine lists errors
   readonly lost = signal<(() => string) | null>(null); // why the link in the address cannot be read
   readonly lostAs = signal('damaged');
   readonly reply = signal<Reply | undefined>(undefined);

@@ -87,6 +87,7 @@ export class OwnMachine {
   readonly shelves = signal<Record<Part, Shelf[]>>({machine: [], post: []});
   readonly states = signal<Record<Part, State>>({machine: undefined, post: undefined});
   readonly program = signal('');
+  readonly stale = signal(false); // the program is of values before these
   readonly others = signal<Issue[]>([]); // errors that are at no field of the two files
   readonly trouble = signal<string>(''); // no answer, or a file that is neither
   readonly changes = signal(0);
@@ -217,14 +218,15 @@ export class OwnMachine {
       machine: [...placed(motions ?? {}), ...(machine['name'] ? [] : [unnamed])].filter(within('machine')),
       post: placed(of ?? {}).filter(within('post')),
     };
-    const silent = [motions, of].find((problem) => problem && !problem.errors?.length);
-    this.states.value = {
-      machine: motions?.code === away.code ? undefined : about.machine,
-      post: of?.code === away.code ? undefined : about.post,
-    };
-    this.trouble.value = silent ? (silent.detail ?? t(silent.title ?? '')) : '';
+    const silent = (problem: Partial<Problem> | undefined) => Boolean(problem && !problem.errors?.length); // it names no field
+    const states = {machine: silent(motions) ? undefined : about.machine, post: silent(of) ? undefined : about.post};
+    const why = [motions, of].find(silent);
+    this.states.value = states;
+    this.trouble.value = why ? (why.detail ?? t(why.title ?? '')) : '';
     this.others.value = [...placed(motions ?? {}), ...placed(of ?? {})].filter((issue) => !parts.some((part) => within(part)(issue)));
-    this.program.value = 'text' in program ? program.text : '';
+    const current = 'text' in program && states.machine?.length === 0;
+    if (current) this.program.value = program.text;
+    this.stale.value = !current;
     this.form.complain([...about.machine, ...about.post]);
   }
 }

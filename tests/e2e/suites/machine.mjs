@@ -5,6 +5,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {Service} from '../../contract/service.mjs';
 import {faint, openPlain as open} from '../browser.mjs';
+import {fromStart, tabTo} from '../keyboard.mjs';
 import {barred} from '../seen.mjs';
 
 const docs = await readFile(new URL('../../../docs/machines.md', import.meta.url), 'utf8');
@@ -80,7 +81,7 @@ export const checks = {
     await turn.evaluate((node) => { node.closest('details').open = true; });
     await turn.fill('99');
     await state(page, 'post', '1 error');
-    assert.equal(await page.locator('#own-program').count(), 0);
+    await page.locator('#own-stale').waitFor();
     await page.locator('#units').click();
     assert.equal(await page.locator('.box', {has: field(page, '/machine/pivot_length_mm')}).locator('.unit').innerText(), 'in');
     assert.equal(await turn.getAttribute('aria-invalid'), 'true', 'in the other unit the errors are still there');
@@ -93,9 +94,52 @@ export const checks = {
     assert.notEqual(await field(page, '/post/axes/turn/decimals').inputValue(), '99');
     await field(page, '/machine/name').fill('');
     await state(page, 'machine', '2 errors');
+    await field(page, '/machine/name').fill('shop_table');
+    await field(page, '/machine/axes/1/v_max').fill('90');
+    await state(page, 'machine', 'ok');
     // Lines of a program are lines of the field.
     await field(page, '/post/modes').fill('G21 G40\nG64 P0.05');
     await page.locator('#own-program', {hasText: 'G64 P0.05'}).waitFor();
+    await clean(page);
+  },
+
+  'while a file has an error, the program is marked as out of date': async (given) => {
+    const page = await own(given);
+    const [program, old] = [page.locator('#own-program'), page.locator('#own-stale')];
+    const before = await program.innerText();
+    for (const [pointer, wrong, right] of [['/machine/axes/0/v_max', '-3', '90'], ['/post/name', '', 'shop_post']]) {
+      assert.equal(await old.count(), 0);
+      await field(page, pointer).fill(wrong);
+      await old.waitFor();
+      assert.equal(await program.innerText(), before, 'the last valid one stays');
+      assert.match(await program.getAttribute('class'), /old/);
+      assert.equal(await program.getAttribute('aria-describedby'), 'own-stale');
+      assert.deepEqual(await faint(page), []);
+      await field(page, pointer).fill(right);
+      await old.waitFor({state: 'detached'});
+      assert.doesNotMatch(await program.getAttribute('class'), /old/);
+    }
+    await page.locator('#own-program', {hasText: 'post shop_post'}).waitFor();
+    await clean(page);
+  },
+
+  'from the start of the page, the errors are two keys away': async (given) => {
+    const page = await own(given);
+    const link = page.locator('#to-errors');
+    assert.equal(await link.count(), 0, 'without an error there is no link to it');
+    await field(page, '/machine/axes/1/v_max').fill('-3');
+    await state(page, 'machine', '1 error');
+    assert.deepEqual(await barred(page), []);
+    await fromStart(page);
+    assert.ok(await tabTo(page, '#to-errors') <= 2);
+    await page.keyboard.press('Enter');
+    assert.equal(await page.evaluate(() => document.activeElement.dataset.to), '/machine/axes/1/v_max');
+    await page.keyboard.press('Enter');
+    assert.ok(await field(page, '/machine/axes/1/v_max').evaluate((node) => node === document.activeElement));
+    await page.keyboard.press('Control+a');
+    await page.keyboard.type('90');
+    await state(page, 'machine', 'ok');
+    assert.equal(await link.count(), 0);
     await clean(page);
   },
 

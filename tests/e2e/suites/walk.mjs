@@ -1,7 +1,7 @@
 // A stranger's way through the console: from a blank job to a program, its file and a link, and from a node to its parts.
 import {strict as assert} from 'node:assert';
 import {answered, open, pixels, then} from '../browser.mjs';
-import {press, tabTo} from '../keyboard.mjs';
+import {fromStart, press, tabTo} from '../keyboard.mjs';
 
 const clean = (page) => {
   assert.deepEqual(page.faults, [], 'errors in the browser');
@@ -92,6 +92,24 @@ async function throughTheNode({browser, origin}, width, theme) {
 
 export const checks = {
   'a blank job, three tubes and a plate, to a program and a link, by the keyboard': byKeyboard,
+  'the errors of a refused job are two keys from the start of the page': async ({browser, origin}) => {
+    const page = await open(browser, origin, '#/bevel-tables/table-1-torch-45-deg', {draws: false});
+    await answered(page);
+    const wall = page.locator('[data-pointer="/target/wall_mm"]');
+    assert.equal(await page.locator('#to-errors').count(), 0, 'without an error there is no link to it');
+    await then(page, () => wall.fill('0'));
+    await fromStart(page);
+    assert.ok(await tabTo(page, '#to-errors') <= 2);
+    await page.keyboard.press('Enter');
+    assert.equal(await page.evaluate(() => document.activeElement.dataset.to), '/target/wall_mm');
+    await page.keyboard.press('Enter');
+    assert.ok(await wall.evaluate((node) => node === document.activeElement), 'the error leads to its field');
+    await page.keyboard.press('Control+a');
+    await then(page, () => page.keyboard.type('5'));
+    assert.equal(await page.locator('#to-errors').count(), 0);
+    clean(page);
+    await page.context().close();
+  },
   'a node leads to its parts': (given) => throughTheNode(given, 1280, 'light'),
   'a node leads to its parts at 390 px, dark': (given) => throughTheNode(given, 390, 'dark'),
 

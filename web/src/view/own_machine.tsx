@@ -23,6 +23,16 @@ export function OwnMachinePage() {
   const own = useMemo(() => new OwnMachine(console.contract, console.examples), [console]);
   useEffect(() => void own.begin(), [own]);
   useEffect(() => own.refresh(), [system.value, language.value]);
+  const wrong = parts.some((part) => own.states.value[part]?.length);
+  useEffect(() => {
+    console.ownWrong.value = wrong;
+  }, [wrong]);
+  useEffect(
+    () => () => {
+      console.ownWrong.value = false;
+    },
+    [console],
+  );
   /** Undo is of this form, and not of the job's. */
   const keydown = (event: KeyboardEvent) => {
     const pressed = event.key.toLowerCase();
@@ -209,9 +219,23 @@ function Check({own}: {own: OwnMachine}) {
         </ul>
       )}
       {program && (
-        <pre class="listing" id="own-program" tabIndex={0} role="group" aria-label={t('Program of the coupon')}>
-          {program}
-        </pre>
+        <>
+          {own.stale.value && (
+            <p class="wrong" id="own-stale">
+              {t('This program is out of date: it is of the last values without errors.')}
+            </p>
+          )}
+          <pre
+            class={own.stale.value ? 'listing old' : 'listing'}
+            id="own-program"
+            tabIndex={0}
+            role="group"
+            aria-label={t('Program of the coupon')}
+            aria-describedby={own.stale.value ? 'own-stale' : undefined}
+          >
+            {program}
+          </pre>
+        </>
       )}
     </section>
   );

@@ -24,6 +24,7 @@ export function Shell({console, children}: {console?: Console | undefined; child
       <a class="skip" href={console?.home.value ? `#${console.place.value}` : '#views'}>
         {t('Skip to the result')}
       </a>
+      {console && <ToErrors />}
       <header class="top">
         <a class="brand" href="#/" title={t('Start')}>
           <img src="/mark.svg" width={26} height={26} alt="" /> <span>tubecut</span>
@@ -55,6 +56,23 @@ export function Shell({console, children}: {console?: Console | undefined; child
         </section>
       </main>
     </Page.Provider>
+  );
+}
+
+/** From the start of the page to the list of errors, because many stops are before it. */
+function ToErrors() {
+  const console = useConsole();
+  const errors = !console.home.value && console.lost.value === null && console.reply.value?.problem?.errors?.length;
+  if (!errors && !(onOwn(console) && console.ownWrong.value)) return null;
+  const list = onOwn(console) ? 'own-check' : 'verdict';
+  const go = (event: Event) => {
+    event.preventDefault();
+    document.querySelector<HTMLElement>('#own-machine .errors [data-to], #verdict [data-to]')?.focus();
+  };
+  return (
+    <a class="skip" id="to-errors" href={`#${list}`} onClick={go}>
+      {t('Skip to the errors')}
+    </a>
   );
 }
 
