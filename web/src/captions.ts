@@ -3,7 +3,7 @@ import type {Dictionary} from './chinese';
 import {chinese} from './language';
 import {filled} from './texts';
 
-// The service writes English. Its drawings and lists have few captions, some of them with values.
+// The service writes English, and so do the readers of models. Their captions and reasons are few, some of them with values.
 
 interface Pattern {
   found: RegExp;
@@ -16,9 +16,11 @@ interface Captions {
 }
 
 const places = /\{(\w+)\}/g;
-/** One letter is a place of a number, `hole` one of a hole's number; other places take any text. */
-const kinds: Record<string, string> = {hole: 'H\\d+'};
+/** One letter is a place of a number, `hole` one of a hole's number, `entity` one of IFC; other places take any text. */
+const kinds: Record<string, string> = {hole: 'H\\d+', entity: '#\\d+ \\w+'};
 const placeOf = (name: string) => `(${kinds[name] ?? (name.length === 1 ? '[-+]?\\d.*?' : '.+?')})`;
+/** Places of several captions: between two of them, in English and in Chinese. */
+const lists: Record<string, [RegExp, string]> = {list: [/[,;] /, '，'], choices: [/ or /, ' 或 '], causes: [/, and /, '；']};
 const literally = (text: string) => text.replace(/[\\^$.*+?()[\]|]/g, '\\$&');
 
 function patternOf(english: string, said: string): Pattern {
@@ -38,21 +40,21 @@ function* namesIn(dictionary: Dictionary): Generator<[english: string, translate
   }
 }
 
-const made = new WeakMap<Dictionary, Captions>();
-function captionsOf(dictionary: Dictionary): Captions {
-  const found = made.get(dictionary);
+const made = new WeakMap<object, Captions>();
+function captionsOf(table: Record<string, string>, names?: Dictionary): Captions {
+  const found = made.get(table);
   if (found) return found;
-  const all = Object.entries(dictionary.captions);
+  const all = Object.entries(table);
   const fixed = all.filter(([english]) => !english.includes('{'));
   const captions = {
-    whole: new Map([...namesIn(dictionary), ...fixed]),
+    whole: new Map([...(names ? namesIn(names) : []), ...fixed]),
     // The longest first, because a short one also fits the texts of a longer one.
     patterns: all
       .filter(([english]) => english.includes('{'))
       .sort(([a], [b]) => b.length - a.length)
       .map(([english, said]) => patternOf(english, said)),
   };
-  made.set(dictionary, captions);
+  made.set(table, captions);
   return captions;
 }
 
@@ -63,11 +65,12 @@ function captioned(text: string, captions: Captions): string {
     const values = found.exec(text)?.slice(1);
     if (!values) continue;
     const inner = (name: string, value: string) => {
-      if (name === 'list')
+      const [split, joined] = lists[name] ?? [];
+      if (split && joined)
         return value
-          .split(/[,;] /)
+          .split(split)
           .map((each) => captioned(each, captions))
-          .join('，');
+          .join(joined);
       return name.startsWith('caption') ? captioned(value, captions) : value.trim();
     };
     return filled(said, Object.fromEntries(names.map((name, i) => [name, inner(name, values[i] as string)])));
@@ -79,5 +82,11 @@ function captioned(text: string, captions: Captions): string {
 /** Returns a caption of the service in the language of the page; if it is unknown, the text itself. */
 export function caption(text: string): string {
   const dictionary = chinese();
-  return dictionary ? captioned(text, captionsOf(dictionary)) : text;
+  return dictionary ? captioned(text, captionsOf(dictionary.captions, dictionary)) : text;
+}
+
+/** The same of a reason that a reader of models gives, or of a place in its file. */
+export function cause(text: string): string {
+  const dictionary = chinese();
+  return dictionary ? captioned(text, captionsOf(dictionary.reasons)) : text;
 }

@@ -123,6 +123,20 @@ export const checks = {
   'an IFC file is dropped: its frame is seen, a member clicked, what was left out said': (given) => dropsIfc(given, 1280, 'light'),
   'the same at 390 px, dark': (given) => dropsIfc(given, 390, 'dark'),
 
+  'in Chinese, the reasons for what was left out are Chinese': async ({browser, origin}) => {
+    const page = await frames(browser, origin, {width: 390, locale: 'zh-CN'});
+    await then(page, () => drop(page, 'node.ifc', ifc()));
+    const told = await missed(page);
+    assert.equal(told.length, 3);
+    for (const line of told) {
+      assert.match(line, /\p{Script=Han}/u);
+      assert.doesNotMatch(line, /\p{Ll}{2,} \p{Ll}{2,}/u);
+    }
+    assert.ok(told.some((line) => /^#\d+ IfcPlate：不导入 IfcPlate$/.test(line)), `${told}`);
+    clean(page);
+    await page.context().close();
+  },
+
   'a PCF file is chosen by the keyboard, the walls that it does not tell by a schedule': async ({browser, origin}) => {
     const page = await frames(browser, origin);
     page.on('filechooser', () => {});  // else the browser may open its own, which is intercepted from the first listener on

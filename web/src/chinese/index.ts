@@ -7,6 +7,7 @@ import contract from './contract.json';
 import descriptions from './descriptions.json';
 import names from './names.json';
 import pictures from './pictures.json';
+import reasons from './reasons.json';
 import views from './views.json';
 
 /** The meaning of a code, and the action. */
@@ -19,11 +20,14 @@ export interface Dictionary {
   codes: Record<'errors' | 'warnings', Record<string, Said>>;
   /** Of the service's drawings and lists, by the English caption; with places for values. */
   captions: Record<string, string>;
+  /** Of the readers of models, by the English reason; with places for values. */
+  reasons: Record<string, string>;
 }
 
 export const dictionary: Dictionary = {
   texts: {...contract, ...descriptions, ...names, ...pictures, ...views},
   words,
   captions,
+  reasons,
   codes: codes as unknown as Dictionary['codes'],
 };

@@ -1,4 +1,5 @@
 import {useLayoutEffect, useRef, useState} from 'preact/hooks';
+import {cause} from '../captions';
 import type {Imported, ImportedPart} from '../importer';
 import {clone, type Row} from '../json';
 import {many, t} from '../language';
@@ -28,7 +29,7 @@ interface Given {
 }
 
 const said = (questions: Question[] = []): Answers => Object.fromEntries(questions.map(({key, value = ''}) => [key, value]));
-const reason = (failure: unknown) => (failure instanceof Error ? failure.message : String(failure));
+const reason = (failure: unknown) => cause(failure instanceof Error ? failure.message : String(failure));
 
 /** Of the page; the worker of the last model serves the next. */
 let reader: Promise<Reading> | undefined;
@@ -334,6 +335,24 @@ function alike(missed: Missed[]): [Missed, ids: string[]][] {
 }
 const namedIds = 5; // of the things in one line
 
+/** One thing, or all of one kind that are omitted for one reason. */
+function Missing({missed, ids}: {missed: Missed; ids: string[]}) {
+  const [type, why] = [cause(missed.type), cause(missed.reason)];
+  if (ids.length === 1)
+    return (
+      <li>
+        <b>{ids[0]}</b> {t('{type}: {why}', {type, why})}
+      </li>
+    );
+  const named = `${ids.slice(0, namedIds).join(t(', '))}${ids.length > namedIds ? ' …' : ''}`;
+  return (
+    <li>
+      <b title={ids.join(', ')}>{`${ids.length} × ${type}`}</b>
+      {t(': {why} ({ids})', {why, ids: named})}
+    </li>
+  );
+}
+
 /** How much of the file is in the request, and every thing that is not. */
 function Found(found: Imported | ImportedPart) {
   const {notUnderstood} = found;
@@ -344,11 +363,8 @@ function Found(found: Imported | ImportedPart) {
       <p id="imported-said">{`${what} ${missed ? many(missed, '{n} thing was not understood:', '{n} things were not understood:') : t('Nothing was omitted.')}`}</p>
       {missed > 0 && (
         <ul id="not-understood" tabIndex={0} aria-label={t('Unsupported items')}>
-          {alike(notUnderstood).map(([{id, type, reason: why}, ids], i) => (
-            <li key={i}>
-              {ids.length > 1 ? <b title={ids.join(', ')}>{`${ids.length} × ${type}`}</b> : <b>{id}</b>}
-              {ids.length > 1 ? `: ${why} (${ids.slice(0, namedIds).join(', ')}${ids.length > namedIds ? ' …' : ''})` : ` ${type}: ${why}`}
-            </li>
+          {alike(notUnderstood).map(([each, all], i) => (
+            <Missing key={i} missed={each} ids={all.map(cause)} />
           ))}
         </ul>
       )}
