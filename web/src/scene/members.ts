@@ -16,11 +16,14 @@ import {
 } from 'three';
 import {colour} from '../dom';
 import {type Assembly, heightsOf, type MemberPart, reachOf} from '../picture';
-import {holedTube, ink, matrix, metal, shell, thinned} from './meshes';
+import {Crowd, type Piece} from './crowd';
+import {crowded, ink, matrix, metal, shell} from './meshes';
 import {openings} from './openings';
+import {closed, holedTube, thinned} from './walls';
 
 const many = 60; // members, from which each is seen so small that a few columns and its outer edges do
-const columns = {fine: 4, coarse: 15}; // degrees
+const crowd = 240; // members, from which fewer do
+const columns = {fine: 4, coarse: 15, coarsest: 20}; // degrees
 
 /** A member's axis in the world. */
 interface Axis {
@@ -35,8 +38,9 @@ export type Joint = NonNullable<Assembly['joints']>[number];
 /** The members of a frame: each part's meshes once, shown in each place that it is made for. */
 export class Members extends Group {
   readonly axes: Axis[];
-  planes: Plane[] = []; // of a section
   private readonly meshes: {mesh: InstancedMesh; of: number[]}[] = [];
+  private readonly crowds: Crowd[] = []; // of members that are seen from afar
+  private cutBy: Plane[] = [];
 
   constructor(readonly assembly: Assembly) {
     super();
@@ -45,16 +49,29 @@ export class Members extends Group {
     this.axes = members.map(({part}, i) => axisOf(parts[part] as MemberPart, placed[i] as Matrix4));
     const lines: number[] = [];
     const afar = members.length > many;
+    const step = members.length > crowd ? columns.coarsest : afar ? columns.coarse : columns.fine;
+    const pieces: Record<string, Piece[]> = {'outer closed': [], 'bore closed': [], outer: [], bore: []};
     parts.forEach((part, k) => {
       const of = members.flatMap((member, i) => (member.part === k ? [i] : []));
       const places = of.map((i) => placed[i] as Matrix4);
-      const made = meshesOf(part, afar);
+      const made = meshesOf(part, step);
       for (const each of made.children) {
-        if (each instanceof Mesh) this.instance(each, of, places);
+        if (each instanceof Mesh && afar) {
+          const own = pieces[`${sideOf(each)}${each.userData === closed ? ' closed' : ''}`];
+          places.forEach((place, n) => own?.push({geometry: each.geometry, place, member: of[n] as number}));
+        } else if (each instanceof Mesh) this.instance(each, of, places);
         else if (each instanceof Line && (!afar || each.name === 'outer')) places.forEach((place) => trace(each, place, lines));
         if (each instanceof Line) each.geometry.dispose();
       }
     });
+    for (const [name, own] of Object.entries(pieces)) {
+      const hue = name.startsWith('outer') ? '#ffffff' : '#a0a0a0';
+      const materials = {whole: crowded(hue, name.endsWith('closed')), cut: crowded(hue, false)};
+      if (own.length === 0) continue;
+      const all = new Crowd(own, materials);
+      this.crowds.push(all);
+      this.add(all);
+    }
     const edges = new BufferGeometry();
     edges.setAttribute('position', new Float32BufferAttribute(lines, 3));
     this.add(new LineSegments(edges, ink('edge')));
@@ -62,10 +79,16 @@ export class Members extends Group {
   }
 
   private instance(source: Mesh, of: number[], places: Matrix4[]): void {
-    const mesh = new InstancedMesh(source.geometry, source.name === 'outer' ? metal('member', '#ffffff') : metal('member bore', '#a0a0a0'), of.length);
+    const mesh = new InstancedMesh(source.geometry, sideOf(source) === 'outer' ? metal('member', '#ffffff') : metal('member bore', '#a0a0a0'), of.length);
     places.forEach((place, n) => mesh.setMatrixAt(n, place));
     this.meshes.push({mesh, of});
     this.add(mesh);
+  }
+
+  /** Of a section, whose cut shows the inside of the walls. */
+  set planes(planes: Plane[]) {
+    this.cutBy = planes;
+    for (const each of this.crowds) each.material = planes.length ? each.materials.cut : each.materials.whole;
   }
 
   /** Highlights the selection, and the hovered items a little less. */
@@ -74,19 +97,21 @@ export class Members extends Group {
     const accent = new Color(colour('chosen'));
     const hues = new Map<string, Color>();
     for (const {tone} of members) if (!hues.has(tone)) hues.set(tone, new Color(colour(tone)));
+    const hue = (i: number) => {
+      const own = hues.get(members[i]?.tone as string) as Color;
+      return chosen.has(i) ? accent : pointed.has(i) ? own.clone().lerp(accent, 0.6) : own;
+    };
+    for (const each of this.crowds) each.paint(hue);
     for (const {mesh, of} of this.meshes) {
-      of.forEach((i, n) => {
-        const own = hues.get(members[i]?.tone as string) as Color;
-        mesh.setColorAt(n, chosen.has(i) ? accent : pointed.has(i) ? own.clone().lerp(accent, 0.6) : own);
-      });
+      of.forEach((i, n) => mesh.setColorAt(n, hue(i)));
       if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
     }
   }
 
-  /** The members of an item. */
   /** Whether a section leaves a point. */
-  private readonly kept = (point: Vector3) => this.planes.every((plane) => plane.distanceToPoint(point) >= 0);
+  private readonly kept = (point: Vector3) => this.cutBy.every((plane) => plane.distanceToPoint(point) >= 0);
 
+  /** The members of an item. */
   of(item: number | null): Set<number> {
     return new Set(item === null ? [] : this.assembly.lights[item]);
   }
@@ -127,9 +152,17 @@ export class Members extends Group {
 
   /** The member that is seen along a ray, else the one that it passes the closest, by the angle `slack` at most. */
   under(caster: Raycaster, slack: number): number | null {
-    const first = caster.intersectObjects(this.meshes.map(({mesh}) => mesh)).find(({point}) => this.kept(point));
-    const found = this.meshes.find(({mesh}) => mesh === first?.object);
-    return found?.of[first?.instanceId as number] ?? this.near(caster.ray, slack);
+    const seen = this.meshes.flatMap(({mesh, of}) => caster.intersectObject(mesh).map((hit) => ({member: of[hit.instanceId as number] as number, hit})));
+    const near = [...this.axes.keys()].filter((i) => this.crowds.length && this.passes(caster.ray, i));
+    seen.push(...this.crowds.flatMap((each) => each.hits(caster, near)));
+    const first = seen.sort((a, b) => a.hit.distance - b.hit.distance).find(({hit}) => this.kept(hit.point));
+    return first?.member ?? this.near(caster.ray, slack);
+  }
+
+  /** Whether a ray comes so near to a member's axis that it may meet the member. */
+  private passes(ray: Ray, i: number): boolean {
+    const {start, end, radius} = this.axes[i] as Axis;
+    return ray.distanceSqToSegment(start, end) < (3 * radius) ** 2; // an end that is cut at a slant reaches beyond the axis
   }
 
   /** As `under`, of round bars with round ends: quick, and not to be clicked by. */
@@ -148,13 +181,15 @@ export class Members extends Group {
   }
 }
 
-function meshesOf(part: MemberPart, afar: boolean): Group {
+const sideOf = ({name}: Mesh) => (name === 'outer' ? 'outer' : 'bore');
+
+function meshesOf(part: MemberPart, step: number): Group {
   if ('cuts' in part) {
     const drawn = shell(part);
     return part.openings?.length ? drawn.add(openings(part.openings)) : drawn;
   }
-  if (!afar) return holedTube(part, undefined, columns.fine);
-  return holedTube({...part, from: thinned(part.from, columns.coarse), to: thinned(part.to, columns.coarse)}, undefined, columns.coarse);
+  const ends = step === columns.fine ? {} : {from: thinned(part.from, step), to: thinned(part.to, step)};
+  return holedTube({...part, ...ends}, undefined, step);
 }
 
 function axisOf(part: MemberPart, place: Matrix4): Axis {

@@ -8,6 +8,7 @@ import {
   DoubleSide,
   ExtrudeGeometry,
   Float32BufferAttribute,
+  FrontSide,
   Group,
   Line,
   LineBasicMaterial,
@@ -26,7 +27,7 @@ import {
   type Material,
 } from 'three';
 import {colour, partnerColour} from '../dom';
-import type {CutTube, EndCurve, Frame, Gaps, HoledTube, Partner, Ribbon, Shell, Tool, Vector} from '../picture';
+import type {CutTube, Frame, Gaps, Partner, Ribbon, Shell, Tool, Vector} from '../picture';
 
 const radians = Math.PI / 180;
 export const toVector = (v: Vector) => new Vector3(...v);
@@ -46,10 +47,10 @@ function shade(share: number, into: Color): Color {
 }
 
 /** The bevels that all cuts of a picture are tinted by. */
-type Span = [number, number] | undefined;
+export type Span = [number, number] | undefined;
 /** Of each edge's point: by its gap where gaps are shown, else both edges by the bevel. */
 type Tint = (i: number, outer: boolean) => Color;
-function tintOf(b: number[] | undefined, gaps: Gaps | undefined, span: Span): Tint | undefined {
+export function tintOf(b: number[] | undefined, gaps: Gaps | undefined, span: Span): Tint | undefined {
   if (gaps) return (i, outer) => shade(((outer ? gaps.outer : gaps.inner)[i] as number) / (gaps.most || 1), new Color());
   return b && span && ((i) => shade(((b[i] as number) - span[0]) / (span[1] - span[0]), new Color()));
 }
@@ -60,10 +61,10 @@ export function matrix(frame: Frame | undefined): Matrix4 {
   return m.makeBasis(toVector(frame.x), toVector(frame.y), toVector(frame.z)).setPosition(...frame.origin);
 }
 
-const around = (radius: number, phi: number, z: number): Vector => [radius * Math.cos(phi * radians), radius * Math.sin(phi * radians), z];
+export const around = (radius: number, phi: number, z: number): Vector => [radius * Math.cos(phi * radians), radius * Math.sin(phi * radians), z];
 
 /** Quads between two rows of points, closed round; normals as given or from the faces. */
-function strip(a: Vector[], b: Vector[], closed: boolean, normals?: [Vector[], Vector[]], tint?: Tint): BufferGeometry {
+export function strip(a: Vector[], b: Vector[], closed: boolean, normals?: [Vector[], Vector[]], tint?: Tint): BufferGeometry {
   const positions: number[] = [],
     directions: number[] = [],
     colours: number[] = [],
@@ -102,7 +103,10 @@ function kept<M extends Material>(name: string, make: () => M): M {
 const behind = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1};
 export const metal = (name: string, hue: string) => kept(name, () => new MeshLambertMaterial({color: hue, side: DoubleSide, ...behind}));
 export const steel = (tone: string) => metal(tone, colour(tone));
-const face = (tinted: boolean) =>
+/** Of many members in one mesh, which have their colours at the vertices. Of a closed body without a section, the faces towards the eye do. */
+export const crowded = (hue: string, closed: boolean) =>
+  kept(`crowd ${hue} ${closed}`, () => new MeshLambertMaterial({color: hue, vertexColors: true, side: closed ? FrontSide : DoubleSide, ...behind}));
+export const face = (tinted: boolean) =>
   kept(
     `face ${tinted}`,
     () => new MeshLambertMaterial({color: tinted ? 0xffffff : colour('bevel-mid'), vertexColors: tinted, side: DoubleSide, flatShading: true, ...behind}),
@@ -151,130 +155,10 @@ export function cutTube(tube: CutTube, before: boolean, span: Span): Group {
   return group;
 }
 
-/** A member with its holes: each wall in columns of constant phi, `step` degrees wide at most, each column open where a hole is. */
-export function holedTube(tube: HoledTube, span: Span, step = 2): Group {
-  const group = new Group();
-  for (const [side, radius, tone] of [
-    ['outer', tube.outer, 'steel'],
-    ['inner', tube.inner, 'bore'],
-  ] as const) {
-    const holes = tube.holes.map((hole) => hole[side]);
-    const wall = new Mesh(openWall(radius, edge(tube.from, side), edge(tube.to, side), holes, step), steel(tone));
-    wall.name = side;
-    group.add(wall);
-  }
-  for (const hole of tube.holes) {
-    const inside = hole.inner.phi.map((p, i) => around(tube.inner, p, hole.inner.z[i] as number));
-    const outside = hole.outer.phi.map((p, i) => around(tube.outer, p, hole.outer.z[i] as number));
-    const tint = tintOf(hole.b, hole.gaps, span);
-    const bevel = new Mesh(strip(inside, outside, true, undefined, tint), face(Boolean(tint)));
-    group.add(bevel, ...rims(inside, outside));
-  }
-  for (const end of [tube.from, tube.to]) {
-    const inside = end.phi.map((p, i) => around(tube.inner, p, end.zInner[i] as number));
-    const outside = end.phi.map((p, i) => around(tube.outer, p, end.zOuter[i] as number));
-    const tint = tintOf(end.b, end.gaps, span);
-    group.add(new Mesh(strip(inside, outside, true, undefined, tint), tint ? face(true) : steel('bore')), ...rims(inside, outside));
-  }
-  return group;
-}
-
-function rims(inside: Vector[], outside: Vector[]): Line[] {
+export function rims(inside: Vector[], outside: Vector[]): Line[] {
   const outer = outline(outside, 'edge');
   outer.name = 'outer';
   return [outline(inside, 'edge'), outer];
-}
-
-interface Curve {
-  phi: number[];
-  z: number[];
-}
-const turn = (p: number) => ((p % 360) + 360) % 360;
-
-/** One wall's edge of an end, in the order of phi. */
-function edge(end: EndCurve, side: 'outer' | 'inner'): Curve {
-  const order = end.phi.map((_, i) => i).sort((a, b) => turn(end.phi[a] as number) - turn(end.phi[b] as number));
-  const z = side === 'outer' ? end.zOuter : end.zInner;
-  return {phi: order.map((i) => turn(end.phi[i] as number)), z: order.map((i) => z[i] as number)};
-}
-
-/** An end with a point every `step` degrees, for a view from afar. */
-export function thinned(end: EndCurve, step: number): EndCurve {
-  const phi = Array.from({length: 360 / step}, (_, i) => step * i);
-  return {phi, zInner: heights(edge(end, 'inner'), phi), zOuter: heights(edge(end, 'outer'), phi)};
-}
-
-/** z of an edge at ascending angles. */
-function heights({phi, z}: Curve, angles: number[]): number[] {
-  const last = phi.length - 1;
-  const all = [(phi[last] as number) - 360, ...phi, (phi[0] as number) + 360];
-  const values = [z[last] as number, ...z, z[0] as number];
-  let i = 0;
-  return angles.map((angle) => {
-    while (i + 2 < all.length && (all[i + 1] as number) <= angle) ++i;
-    const [a, b] = [all[i] as number, all[i + 1] as number];
-    const t = b > a ? (angle - a) / (b - a) : 0;
-    return (values[i] as number) * (1 - t) + (values[i + 1] as number) * t;
-  });
-}
-
-/** A wall between two edges, open where holes are. Every point of a curve begins a column, so that within one all edges are straight. */
-function openWall(radius: number, from: Curve, to: Curve, holes: Curve[], step: number): BufferGeometry {
-  const columns = stopsOf([from, to, ...holes], step);
-  const [starts, ends] = [heights(from, columns), heights(to, columns)];
-  const positions: number[] = [],
-    normals: number[] = [];
-  const quad = (p: number, q: number, low: [number, number], high: [number, number]) => {
-    const [a, b, c, d] = [around(radius, p, low[0]), around(radius, q, low[1]), around(radius, q, high[1]), around(radius, p, high[0])];
-    positions.push(...a, ...b, ...c, ...a, ...c, ...d);
-    for (const angle of [p, q, q, p, q, p]) normals.push(...around(1, angle, 0));
-  };
-  for (let i = 0; i + 1 < columns.length; ++i) {
-    const [p, q] = [columns[i] as number, columns[i + 1] as number];
-    let low: [number, number] = [starts[i] as number, starts[i + 1] as number];
-    const gaps = holes
-      .map((hole) => opening(hole, p, q))
-      .filter((gap): gap is Opening => gap !== null)
-      .sort((a, b) => a.from[0] - b.from[0]);
-    for (const gap of gaps) {
-      quad(p, q, low, gap.from);
-      low = gap.to;
-    }
-    quad(p, q, low, [ends[i] as number, ends[i + 1] as number]);
-  }
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new Float32BufferAttribute(positions, 3));
-  geometry.setAttribute('normal', new Float32BufferAttribute(normals, 3));
-  return geometry;
-}
-
-/** All angles that curves have a point at, and every `step` degrees, once each. */
-function stopsOf(curves: Curve[], step: number): number[] {
-  const all = [...Array.from({length: 360 / step + 1}, (_, i) => step * i), ...curves.flatMap((curve) => curve.phi.map(turn))].sort((a, b) => a - b);
-  return all.filter((angle, i) => i === 0 || angle - (all[i - 1] as number) > 1e-7);
-}
-
-/** z at both sides of a column, where a hole begins and where it ends. */
-interface Opening {
-  from: [number, number];
-  to: [number, number];
-}
-function opening(hole: Curve, p: number, q: number): Opening | null {
-  const middle = (p + q) / 2;
-  const edges: [number, number][] = [];
-  hole.phi.forEach((a, i) => {
-    const j = (i + 1) % hole.phi.length;
-    const way = (((((hole.phi[j] as number) - a + 540) % 360) + 360) % 360) - 180; // the short one, across the seam too
-    if (way === 0) return;
-    const offset = ((((middle - a + 180) % 360) + 360) % 360) - 180;
-    const share = offset / way;
-    if (share < 0 || share >= 1) return;
-    const z = (angle: number) => (hole.z[i] as number) + (((hole.z[j] as number) - (hole.z[i] as number)) * (offset + angle - middle)) / way;
-    edges.push([z(p), z(q)]);
-  });
-  if (edges.length < 2) return null;
-  edges.sort((a, b) => a[0] + a[1] - b[0] - b[1]);
-  return {from: edges[0] as [number, number], to: edges[edges.length - 1] as [number, number]};
 }
 
 /** Seen through where one looks straight at it, solid where it turns away: a partner that hides nothing. */

@@ -22,11 +22,12 @@ import {chosen, chosenTogether, listen, point, pointed} from '../links';
 import type {Solid, Vector} from '../picture';
 import {Labels} from './labels';
 import {Members} from './members';
-import {Beam, Cone, cutTube, drawnLine, holedTube, matrix, partnerMesh, ribbon} from './meshes';
+import {Beam, Cone, cutTube, drawnLine, matrix, partnerMesh, ribbon} from './meshes';
 import {Measure, snapped} from './measure';
 import {openings} from './openings';
 import {boxOf, placeOf, planeOf, type Slice} from './slice';
 import {lens, refit, towards, type Side} from './views';
+import {holedTube} from './walls';
 
 // Drawn pixels per page pixel, in each direction. Without a graphics card one takes 30 ms and four
 // take 90, so a changing picture is drawn coarse, and once more fine when nothing has changed for a
