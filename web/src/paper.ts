@@ -24,9 +24,11 @@ export function printDrawing(drawing: SVGSVGElement): void {
   const sheet = Object.assign(document.createElement('div'), {id: 'sheet'});
   sheet.append(drawing.cloneNode(true));
   document.body.append(sheet);
+  document.body.classList.add('sheeted');
   try {
     print();
   } finally {
+    document.body.classList.remove('sheeted');
     sheet.remove();
   }
 }
