@@ -248,6 +248,7 @@ export interface Solid {
   assembly?: Assembly;
   partners: Partner[];
   ribbons?: Ribbon[];
+  closed?: true; // the ribbons are the whole surface of a body
   /** Openings in flat walls, each by its closed edge, drawn over the wall. */
   openings?: Vector[][];
   lines?: {points: Vector[]; tone: string}[];

@@ -81,6 +81,41 @@ export const checks = {
     await page.context().close();
   },
 
+  'a section shows the cut faces of walls, and only those': async ({browser, origin}) => {
+    /** The share of the canvas that has the colour of cut faces. */
+    const cut = async (page) => {
+      await pixels(page);
+      return page.evaluate(() => {
+        const from = document.querySelector('.canvas canvas');
+        const copy = Object.assign(document.createElement('canvas'), {width: from.width, height: from.height});
+        const pen = copy.getContext('2d');
+        pen.drawImage(from, 0, 0);
+        const {data} = pen.getImageData(0, 0, copy.width, copy.height);
+        const wanted = getComputedStyle(document.documentElement).getPropertyValue('--section').trim();
+        const [r, g, b] = [1, 3, 5].map((i) => parseInt(wanted.slice(i, i + 2), 16));
+        let count = 0;
+        for (let i = 0; i < data.length; i += 4) if (Math.abs(data[i] - r) + Math.abs(data[i + 1] - g) + Math.abs(data[i + 2] - b) < 12) count += 1;
+        return count / (data.length / 4);
+      });
+    };
+    // A cut end, a tube with holes, one that is not round, and members of a frame.
+    for (const [hash, axis] of [['#/bevel-tables/source-000-table-1', 'x'], ['#/parts/chord-with-holes', 'y'], ['#/parts/shs-base-post', 'y'], ['#/frames/truss-of-19', 'y']]) {
+      const page = await open(browser, origin, hash);
+      await answered(page);
+      if (await page.locator('#view-partners').isVisible()) await page.locator('#view-partners').click();
+      assert.ok(await cut(page) < 1e-4, `${hash}: nothing is cut`);
+      await page.locator('#view-section').click();
+      await page.locator('.slicing select').selectOption(axis);
+      const found = Math.max(await cut(page), await page.locator('#view-other').click().then(() => cut(page))); // one half hides its cut
+      const {share} = await pixels(page);
+      assert.ok(found > 1e-4 && found < 0.7 * share, `${hash}: ${found} of ${share}`);
+      await page.locator('#view-section').click();
+      assert.ok(await cut(page) < 1e-4, `${hash}: whole again`);
+      assert.deepEqual(page.faults, []);
+      await page.context().close();
+    }
+  },
+
   'a section leaves one half of the model or the other, and what it leaves out is not measured': async ({browser, origin}) => {
     for (const [width, hash, theme] of [[1280, '#/parts/shs-base-post', 'light'], [390, '#/bevel-tables/source-000-table-1', 'dark']]) {
       const page = await open(browser, origin, hash, {theme, width, height: 844});

@@ -119,6 +119,7 @@ function solidOf(request: Row, result: Row, sizes: Sizes): Solid {
     link: 'part',
     tubes: [],
     openings,
+    closed: true,
     ribbons: [
       {a: walls[0][0], b: walls[0][1], tone: 'steel'},
       {a: walls[1][0], b: walls[1][1], tone: 'bore'},

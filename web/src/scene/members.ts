@@ -16,6 +16,7 @@ import {
 } from 'three';
 import {colour} from '../dom';
 import {type Assembly, heightsOf, type MemberPart, reachOf} from '../picture';
+import {close} from './cap';
 import {Crowd, type Piece} from './crowd';
 import {crowded, ink, matrix, metal, shell} from './meshes';
 import {openings} from './openings';
@@ -50,7 +51,7 @@ export class Members extends Group {
     const lines: number[] = [];
     const afar = members.length > many;
     const step = members.length > crowd ? columns.coarsest : afar ? columns.coarse : columns.fine;
-    const pieces: Record<string, Piece[]> = {'outer closed': [], 'bore closed': [], outer: [], bore: []};
+    const pieces: Record<string, Piece[]> = {'outer closed': [], 'bore closed': [], outer: [], bore: [], openings: []};
     parts.forEach((part, k) => {
       const of = members.flatMap((member, i) => (member.part === k ? [i] : []));
       const places = of.map((i) => placed[i] as Matrix4);
@@ -70,7 +71,7 @@ export class Members extends Group {
       if (own.length === 0) continue;
       const all = new Crowd(own, materials);
       this.crowds.push(all);
-      this.add(all);
+      this.add(name === 'openings' ? all : close(all));
     }
     const edges = new BufferGeometry();
     edges.setAttribute('position', new Float32BufferAttribute(lines, 3));
@@ -82,7 +83,7 @@ export class Members extends Group {
     const mesh = new InstancedMesh(source.geometry, sideOf(source) === 'outer' ? metal('member', '#ffffff') : metal('member bore', '#a0a0a0'), of.length);
     places.forEach((place, n) => mesh.setMatrixAt(n, place));
     this.meshes.push({mesh, of});
-    this.add(mesh);
+    this.add(sideOf(source) === 'openings' ? mesh : close(mesh));
   }
 
   /** Of a section, whose cut shows the inside of the walls. */
@@ -181,7 +182,7 @@ export class Members extends Group {
   }
 }
 
-const sideOf = ({name}: Mesh) => (name === 'outer' ? 'outer' : 'bore');
+const sideOf = ({name}: Mesh) => (name === 'outer' || name === 'openings' ? name : 'bore');
 
 function meshesOf(part: MemberPart, step: number): Group {
   if ('cuts' in part) {

@@ -28,6 +28,7 @@ import {
 } from 'three';
 import {colour, partnerColour} from '../dom';
 import type {CutTube, Frame, Gaps, Partner, Ribbon, Shell, Tool, Vector} from '../picture';
+import {close} from './cap';
 
 const radians = Math.PI / 180;
 export const toVector = (v: Vector) => new Vector3(...v);
@@ -140,6 +141,7 @@ export function cutTube(tube: CutTube, before: boolean, span: Span): Group {
   const bevel = new Mesh(strip(innerEdge, outerEdge, true, undefined, tint), face(Boolean(tint)));
   bevel.name = 'wall';
   group.add(bevel, new Mesh(strip(innerFar, outerFar, true), steel('bore')));
+  close(group);
   group.add(outline(innerEdge, 'edge'), outline(outerEdge, 'edge'));
   if (tube.tone === 'target') group.add(outline(outerFar, 'edge'));
   const ball = new SphereGeometry(tube.outer * 0.035, 16, 12);

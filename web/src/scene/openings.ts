@@ -21,5 +21,7 @@ export function openings(edges: Vector[][]): Mesh {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(new Float32Array(positions), 3));
   geometry.computeVertexNormals();
-  return new Mesh(geometry, steel('bore'));
+  const mesh = new Mesh(geometry, steel('bore'));
+  mesh.name = 'openings';
+  return mesh;
 }

@@ -20,6 +20,7 @@ import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 import {t} from '../language';
 import {chosen, chosenTogether, listen, point, pointed} from '../links';
 import type {Solid, Vector} from '../picture';
+import {Cap, close} from './cap';
 import {Labels} from './labels';
 import {Members} from './members';
 import {Beam, Cone, cutTube, drawnLine, matrix, partnerMesh, ribbon} from './meshes';
@@ -60,13 +61,14 @@ export class Stage {
   private side: Side = 'first';
   private fitted = 1; // the distance at which the model is seen whole
   private measure = new Measure();
+  private readonly cap = new Cap();
   private measuring: ((points: [Vector3, Vector3] | undefined) => void) | null = null;
   private slice: Slice | null = null;
   private turned = false; // by hand; until then the view fits the frame
 
   constructor(private readonly root: HTMLElement) {
     // Kept, so that the picture can be read back (copied, tested) after it was shown.
-    this.renderer = new WebGLRenderer({antialias: false, alpha: true, preserveDrawingBuffer: true});
+    this.renderer = new WebGLRenderer({antialias: false, alpha: true, preserveDrawingBuffer: true, stencil: true});
     const {domElement} = this.renderer;
     domElement.tabIndex = 0;
     domElement.setAttribute('role', 'img');
@@ -77,7 +79,7 @@ export class Stage {
     key.position.set(0.6, 0.9, 1);
     fill.position.set(-1, -0.3, 0.4);
     this.camera.add(key, fill);
-    this.scene.add(this.camera, new AmbientLight(0xffffff, 0.55), new HemisphereLight(0xffffff, 0x8899aa, 0.7));
+    this.scene.add(this.cap, this.camera, new AmbientLight(0xffffff, 0.55), new HemisphereLight(0xffffff, 0x8899aa, 0.7));
     this.controls = this.control();
     domElement.addEventListener('pointermove', (event) => this.hover(event));
     domElement.addEventListener('pointerleave', () => this.solid && !this.solid.tool && point(this.solid.link, null));
@@ -122,8 +124,8 @@ export class Stage {
     this.partners = new Group();
     this.content.add(
       ...solid.tubes.map((tube) => cutTube(tube, before, solid.tint)),
-      ...(solid.holed ?? []).map((tube) => holedTube(tube, solid.tint)),
-      ...(solid.ribbons ?? []).map((each) => ribbon(each, solid.tint)),
+      ...(solid.holed ?? []).map((tube) => close(holedTube(tube, solid.tint))),
+      ...(solid.ribbons ?? []).map((each) => (solid.closed ? close(ribbon(each, solid.tint)) : ribbon(each, solid.tint))),
       ...(solid.openings?.length ? [openings(solid.openings)] : []),
       ...(solid.lines ?? []).map((l) => drawnLine(l.points, l.tone)),
       this.partners,
@@ -213,8 +215,10 @@ export class Stage {
 
   private cut(): number | undefined {
     const parts = this.content.children.filter((part) => ![this.partners, this.measure, this.beam].includes(part as Group));
-    const at = this.slice ? placeOf(this.slice, boxOf(parts)) : undefined;
+    const box = this.slice ? boxOf(parts) : undefined;
+    const at = this.slice && box ? placeOf(this.slice, box) : undefined;
     this.renderer.clippingPlanes = this.slice && at !== undefined ? [planeOf(this.slice, at)] : [];
+    this.cap.put(this.renderer.clippingPlanes[0] as Plane | undefined, box);
     if (this.members) this.members.planes = this.renderer.clippingPlanes as Plane[];
     return at;
   }
@@ -280,7 +284,7 @@ export class Stage {
 
   private render(ratio: number): void {
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
-    this.renderer.render(this.scene, this.camera);
+    this.cap.render(this.renderer, this.scene, this.camera);
     if (this.members && this.solid) {
       const {clientWidth, clientHeight} = this.root;
       this.labels.place(this.members, this.camera, clientWidth, clientHeight, ...this.lit(this.members, this.solid.link), pointed(chosen(this.solid.link)));
