@@ -2,7 +2,7 @@ import type {ComponentChildren, ComponentType} from 'preact';
 import {useEffect, useState} from 'preact/hooks';
 import type {Console} from '../console';
 import {LanguageButton} from './language_button';
-import {t} from '../language';
+import {language, t} from '../language';
 import {endpointName, exampleName} from '../names';
 import {pressed} from '../preset';
 import {byTask} from '../tasks';
@@ -87,7 +87,15 @@ function OwnMachine() {
 
 function Pages() {
   const console = useConsole();
-  const {pages, contract, endpoint, home} = console;
+  const {pages, contract, endpoint, home, place} = console;
+  // On a phone the tabs are wider than the screen.
+  useEffect(() => {
+    const nav = document.getElementById('endpoints');
+    const tab = nav?.querySelector('[aria-current]');
+    if (!nav || !tab) return;
+    const [outer, own] = [nav.getBoundingClientRect(), tab.getBoundingClientRect()];
+    nav.scrollLeft += own.left + own.width / 2 - outer.left - outer.width / 2;
+  }, [endpoint.value, home.value, place.value, language.value]);
   return (
     <>
       {byTask(pages, ({id}) => id).map(({task, items}) => (
