@@ -123,7 +123,7 @@ export const checks = {
   'an IFC file is dropped: its frame is seen, a member clicked, what was left out said': (given) => dropsIfc(given, 1280, 'light'),
   'the same at 390 px, dark': (given) => dropsIfc(given, 390, 'dark'),
 
-  'in Chinese, the reasons for what was left out are Chinese': async ({browser, origin}) => {
+  'in Chinese, the reasons for omitted things are Chinese': async ({browser, origin}) => {
     const page = await frames(browser, origin, {width: 390, locale: 'zh-CN'});
     await then(page, () => drop(page, 'node.ifc', ifc()));
     const told = await missed(page);
