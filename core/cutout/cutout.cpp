@@ -109,9 +109,9 @@ void point_at_file(const Spec& spec, std::vector<Issue>& issues) {
   }
 }
 
-Issue too_many(std::size_t asked, std::size_t count) {
+Issue too_many(std::size_t asked, std::size_t many, std::size_t count) {
   return {.code = ErrorCode::out_of_range,
-          .member = path_of(asked) + "/pattern",
+          .member = many > 1 ? path_of(asked) + "/pattern" : path_of(asked),
           .got = static_cast<double>(count),
           .limit = static_cast<double>(kMostCutouts),
           .hint = "a part has no more cut-outs"};
@@ -153,7 +153,7 @@ Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground) {
     const auto& spec = specs[k];
     const auto many = count_of(spec.pattern);
     if (count + many > kMostCutouts) {
-      issues.push_back(too_many(k, count + many));
+      issues.push_back(too_many(k, many, count + many));
       continue;
     }
     count += many;

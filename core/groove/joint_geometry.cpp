@@ -1,5 +1,6 @@
 #include "core/groove/joint_geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -116,15 +117,15 @@ std::vector<Issue> shape_issues(const GrooveSpec& spec) {
     return issues;
   }
   const double root = 0.5 * spec.branch.outer_diameter - spec.branch.wall + spec.root_face.width;
-  const double outermost = root + std::abs(spec.eccentricity);
-  if (outermost >= 0.5 * spec.chord.outer_diameter)  // if equal, curve 3 has a kink
+  const double room = 0.5 * spec.chord.outer_diameter - root;
+  if (std::abs(spec.eccentricity) >= room)  // if equal, curve 3 has a kink
     issues.push_back(
         {.code = ErrorCode::no_pierce,
          .member = "eccentricity",
-         .got = outermost,
-         .limit = 0.5 * spec.chord.outer_diameter,
+         .got = std::abs(spec.eccentricity),
+         .limit = std::max(0.0, rounded_down(room - kAboveNothing)),
          .unit = "mm",
-         .hint = "root cylinder's radius plus eccentricity against the chord's radius"});
+         .hint = "the root cylinder, of radius " + brief(root) + " mm, must pierce the chord"});
   return issues;
 }
 

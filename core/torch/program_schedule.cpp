@@ -253,6 +253,7 @@ class Scheduling {
       zone.from += from;
       zone.to += from;
     }
+    if (mark) planned.report.slow.clear();  // nothing burns while the torch is off
     for (auto& warning : motion::warnings(job, planned.report)) {
       if (warning.member == "contour") warning.member = "part";
       warning.detail = of_cut(out_.cuts[i].cut.name, warning.detail);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -193,6 +194,51 @@ TEST(EverydaySectionParts, MirroredAreTheMirrorImage) {
       EXPECT_NEAR(face_a[k], face_b[(4 - k) % 4], kNear);
       EXPECT_NEAR(corner_a[k], corner_b[3 - k], kNear);
     }
+  }
+}
+
+/// Returns the largest turn of the tube between two cutting moves of a program, deg.
+double largest_turn(const std::string& program) {
+  std::istringstream lines(program);
+  double most = 0.0, at = 0.0;
+  for (std::string line; std::getline(lines, line);) {
+    const auto word = line.find(" A");
+    if (word == std::string::npos || line.front() != 'G') continue;
+    const double to = std::stod(line.substr(word + 2));
+    if (line.starts_with("G1")) most = std::max(most, std::abs(to - at));
+    at = to;
+  }
+  return most;
+}
+
+/// Girth begins in the middle of face 1, where rounding decides on which side of it a point lies.
+TEST(EverydaySectionParts, PathsAlongTheMiddleOfAFaceDoNotTurnTheTube) {
+  const auto part = [](double kerf, const std::string& more) {
+    return parsed(R"({"preset": "tube_laser", "kerf_mm": )" + std::to_string(kerf) +
+                  R"(, "target": {"size": "SHS 100x100x4 EN 10219", "length_mm": 300},
+          "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}}, )" +
+                  more + "}");
+  };
+  const auto window = [](double offset) {
+    return R"("cutouts": [{"id": "w", "shape": {"kind": "rectangle", "along_mm": 30,
+              "round_mm": 16, "corner_radius_mm": 2}, "at": {"z_mm": 100, "face": 1,
+              "offset_mm": )" +
+           std::to_string(offset) + "}}]";
+  };
+  const auto letters = [](double angle) {
+    return R"("texts": [{"id": "t", "at": {"z_mm": 100, "face": 1}, "text": "A", "height_mm": 8,
+              "angle_deg": )" +
+           std::to_string(angle) + "}]";
+  };
+  for (const auto& body : {part(0.0, window(8.0)), part(0.0, window(-8.0)), part(0.2, window(7.9)),
+                           part(0.2, window(-7.9)), part(0.2, letters(90.0)),
+                           part(0.2, letters(-90.0)), part(0.2, letters(45.0))}) {
+    const auto text = api::dump(body);
+    const auto answer = post(kParts, std::string_view(text),
+                             "format=gcode&speed_mm_min=1200&lead_mm=2&marks=on"
+                             "&mark_speed_mm_min=1200&dialect=linuxcnc");
+    ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 600);
+    EXPECT_LT(largest_turn(answer.outcome.body), 30.0) << text;
   }
 }
 

@@ -296,6 +296,47 @@ TEST(SquareHoles, OfAMemberInInchesAreThoseOfItsBranches) {
 }
 
 /// Branches without a name, or with that of a cut-out, have names of their own.
+/// A round chord with holes for a round and for a square branch: whichever comes first, each joint
+/// has the weld that it has alone.
+TEST(SquareHoles, StandNextToRoundOnesInOneChord) {
+  const std::string chord =
+      R"({"id": "chord", "start_mm": [0, 0, 0], "end_mm": [1000, 0, 0], "size": "CHS 88.9x4"})";
+  const std::string round =
+      R"({"id": "round", "start_mm": [700, 0, 0], "end_mm": [700, 0, 400],
+          "size": "CHS 33.7x2.6", "priority": 1})";
+  const std::string square =
+      R"({"id": "square", "start_mm": [250, 0, 0], "end_mm": [250, 0, 400],
+          "size": "SHS 25x25x2 EN 10219", "up": [1, 0, 0], "priority": 1})";
+  const auto frame = [&](const std::vector<std::string>& names, const std::string& kind) {
+    std::string members = chord, joints;
+    for (const auto& name : names) {
+      members += "," + (name == "round" ? round : square);
+      joints += (joints.empty() ? "" : ",") + std::string(R"({"between": [")") + name +
+                R"(", "chord"], "kind": ")" + kind + "\"" +
+                (kind == "set_on" ? R"(, "hole": "cut")" : "") + "}";
+    }
+    return parsed(R"({"preset": "tube_laser", "kerf_mm": 0.3, "members": [)" + members +
+                  R"(], "joints": [)" + joints + "]}");
+  };
+  for (const std::string kind : {"set_in", "set_on"}) {
+    std::map<std::string, double> alone;
+    for (const std::string name : {"round", "square"}) {
+      const auto answer = post(kFrames, frame({name}, kind));
+      ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 500);
+      alone[name] = number(answer.body, "result/joints/0/weld_mm");
+    }
+    for (const auto& names : {std::vector<std::string>{"round", "square"},
+                              std::vector<std::string>{"square", "round"}}) {
+      const auto answer = post(kFrames, frame(names, kind));
+      ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 500);
+      for (std::size_t i = 0; i < names.size(); ++i)
+        EXPECT_NEAR(number(answer.body, "result/joints/" + std::to_string(i) + "/weld_mm"),
+                    alone[names[i]], 1e-6)
+            << kind << " " << names[i];
+    }
+  }
+}
+
 TEST(SquareHoles, HaveNamesOfTheirOwn) {
   auto body = rail_with(std::string(kBranch) + "," + kBranch + "," + kBranch);
   for (int i = 0; i < 3; ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "tests/support/call.hpp"
 
@@ -17,6 +18,7 @@ constexpr const char* kParts = "/v1/parts";
 Json branch() { return example("bevel-tables/tube-laser-branch.json"); }
 Json chord() { return example("parts/tube-laser-chord.json"); }
 Json json(const char* text) { return *api::parse(text); }
+Json parsed(const std::string& text) { return *api::parse(text); }
 
 TEST(TubeLaser, TheEchoStatesEveryChoiceAndIsTheSameJob) {
   for (const auto& [path, body] : {std::pair{kTables, branch()}, {kParts, chord()}}) {
@@ -192,6 +194,29 @@ TEST(TubeLaser, AHoleAcrossTheSeamIsRejected) {
   ASSERT_FALSE(answer.outcome.error);
   EXPECT_EQ(number(answer.body, "result/tube_laser/seam_to_hole/girth_mm"), 0.0);
   EXPECT_EQ(text(answer.body, "verdict/status"), "reject");
+}
+
+/// An end cut by an equal tube has two corners. Wherever they lie, also right before the first row,
+/// the part has a program and pulses.
+TEST(TubeLaser, ACornerNextToTheFirstRowClosesTheCut) {
+  const auto part = [](double clocking) {
+    return parsed(R"({"preset": "tube_laser", "kerf_mm": 0.2,
+        "target": {"outer_diameter_mm": 42.4, "wall_mm": 2.6, "length_mm": 500},
+        "ends": {"start": {"square_at_mm": 0}, "finish": {"cutters": [{"kind": "tube",
+          "outer_diameter_mm": 42.4, "inclination_deg": 57, "clocking_deg": )" +
+                  std::to_string(clocking) + "}]}}}");
+  };
+  for (const double clocking : {0.0, 1e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4, -1e-5, -5e-5, 90.00001}) {
+    const auto body = part(clocking);
+    const auto text = api::dump(body);
+    const auto program =
+        post(kParts, std::string_view(text), "format=gcode&speed_mm_min=1200&lead_mm=2");
+    EXPECT_FALSE(program.outcome.error) << clocking << program.outcome.body.substr(0, 400);
+    auto job = json(R"({"machine": "generic", "motion": {"speed": {"mm_min": 1200},
+                        "lead": {"radius_mm": 2}, "pierce_delay_s": 0.2}})");
+    const auto pulses = post("/v1/pulse-schedules", with(job, "part", body));
+    EXPECT_FALSE(pulses.outcome.error) << clocking << pulses.outcome.body.substr(0, 400);
+  }
 }
 
 TEST(TubeLaser, FilesCarryTheGapsAndTheVerdict) {

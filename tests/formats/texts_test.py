@@ -210,6 +210,17 @@ class Texts(FormatTest):
                         self.assertAlmostEqual(float(at_y), girth - float(s), delta=6e-4)
                         self.assertAlmostEqual(float(at_angle), -float(angle), delta=6e-4)
 
+    def test_work_orders_state_every_place_whole(self):
+        """A step that is too long for its column goes on below; its last words are where the text begins and ends."""
+        body = {"preset": "tube_laser", "target": {"outer_diameter_mm": 60.3, "wall_mm": 3, "length_mm": 900}, "kerf_mm": 0.2,
+                "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+                "texts": [{"id": "a", "at": {"z_mm": 703, "phi_deg": 90}, "text": "A-12345678 REV B", "height_mm": 7},
+                          {"id": "b", "at": {"z_mm": 611, "phi_deg": 345}, "text": "TOP", "height_mm": 10, "angle_deg": 90}]}
+        order = self.service.text("parts", body, "format=svg&view=work_order").decode()
+        self.assertNotIn("...", order)
+        for place in ("703", "611"):
+            self.assertRegex(order, rf">[^<]*\b{place}\b")
+
     def test_work_orders_and_templates_show_them(self):
         for name, body, _ in self.parts():
             with self.subTest(name):

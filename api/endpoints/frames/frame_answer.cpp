@@ -84,12 +84,8 @@ void add_holes(const FrameJob& frame, const MadeParts& made, std::size_t member,
     seams[hole.joint].whole = seams[hole.joint].whole && part.made != nullptr;
   if (!part.made) return;
   const auto round = frame::round_holes(piece.holes);
-  const auto asked =
-      frame::round_holes(frame.frame.pieces[frame.parts[frame.part_of[member]].by].holes);
   for (const auto& placed : part.made->out.holes) {
-    const auto of_part =
-        static_cast<std::size_t>(std::ranges::find(asked, placed.asked) - asked.begin());
-    const auto at = std::ranges::find(frame.laid[member].holes, of_part);
+    const auto at = std::ranges::find(frame.laid[member].holes, placed.asked);
     const auto own = round[static_cast<std::size_t>(at - frame.laid[member].holes.begin())];
     const auto joint = piece.holes[own].joint;
     auto& seam = seams[joint];

@@ -26,6 +26,7 @@ Run inner_run() {
 
 /// Returns whether the error concerns the whole request, not only one part.
 bool spoils_all(ErrorCode code) {
+  if (code == ErrorCode::verification_failed) return false;
   return info(code).kind == ErrorKind::internal || code == ErrorCode::cancelled;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "api/catalog/posts.hpp"
@@ -22,8 +23,9 @@
 namespace tubecut::api {
 namespace {
 
-constexpr double kSlow = 1e-3;  // mm, least length a node's time is taken from
-constexpr double kSag = 0.019;  // mm, of one move; below 0.02 with the rounding of its words
+constexpr double kSlow = 1e-3;    // mm, least length a node's time is taken from
+constexpr double kSag = 0.019;    // mm, of one move; below 0.02 with the rounding of its words
+constexpr double kMostSag = 0.1;  // mm; more is a fault of ours
 
 TorchPlace place(const motion::CutPoint& p, bool on_flat) {
   return {p.phi, p.z, p.b, p.a, on_flat};
@@ -120,6 +122,9 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
       refine(way.points, cut.on_flat, reach, turn, moves, out.back());
     }
   }
+  // A program that strays is worse than none.
+  if (moves.sag > kMostSag)
+    throw std::runtime_error("the moves of a program stray by " + fixed(moves.sag, 3) + " mm");
   return out;
 }
 

@@ -34,8 +34,7 @@ SectionTurn::SectionTurn(const section::Section& section)
 
 UprightPlace SectionTurn::at(double phi, bool on_flat) const {
   const double s = radius_ * phi;
-  const double angle =
-      on_flat ? section_.outer().at(s).nu + kTwoPi * std::floor(phi / kTwoPi) : up_.angle(s);
+  const double angle = on_flat ? up_.normal(s) : up_.angle(s);
   const auto p = up_.point(s);
   const auto [sin, cos] = elementary::sincos(angle);
   return {angle, p.y() * cos - p.x() * sin, p.x() * cos + p.y() * sin};

@@ -278,7 +278,7 @@ void warn(const NodeSpec& spec, const MemberEnd& end, const Around& around,
       out.push_back({.code = WarningCode::mitre_steps,
                      .member = at,
                      .detail = "its edge and that of " + called(spec, cut.member) +
-                               " stand up to " + brief(step) + " mm apart"});
+                               " are up to " + brief(step) + " mm apart"});
   if (end.open) out.push_back({.code = WarningCode::end_open, .member = at});
   if (end.consumed) out.push_back({.code = WarningCode::end_consumed, .member = at});
 }

@@ -99,12 +99,19 @@ double largest_phi_step(const std::vector<CutPoint>& points) {
   return largest;
 }
 
+constexpr double kSamePhi = 1e-9;  // rad; a nearer point is used as the requested one
+constexpr double kSteepest = 1e3;  // slope of a curve on the tube
+
 /// Sets the end to the first point one revolution on, and appends it if a whole revolution is open;
 /// `gap` is the missing rad of phi.
 Result<void> close(Track& t, double gap) {
   auto& points = t.points;
-  const bool there = std::abs(gap) <= kClosing;
-  if (there && !agree(points.front(), points.back())) {
+  const bool near = std::abs(gap) <= kClosing;
+  const bool there = near && agree(points.front(), points.back());
+  // An event of the curve may lie that near before the first row, on a steep curve too.
+  const double rise = std::abs(points.back().z - points.front().z);
+  const bool before = t.turns != 0 && gap > kSamePhi && rise <= kSteepest * t.radius * gap;
+  if (near && !there && !before) {
     return fail({ErrorCode::not_closed, "contour", points.back().z - points.front().z, kClosing,
                  "mm", "the ends differ in z or b"});
   }
@@ -172,7 +179,6 @@ Result<void> check_turns(const Track& t) {
   return {};
 }
 
-constexpr double kSamePhi = 1e-9;          // rad; a nearer point is used as the requested one
 constexpr double kCornerCos = 0.93969262;  // cos 20 deg: beyond it two steps make a corner
 
 /// Rotates a closed track so that point `first` is its start.

@@ -64,10 +64,15 @@ Upright::Upright(const section::Section& section, Angle lean)
   }
 }
 
+double Upright::normal(double s) const {
+  const auto at = curve_.at(s);
+  return at.nu + kTwoPi * std::round((s - at.s) / curve_.girth());
+}
+
 double Upright::angle(double s) const {
   const double girth = curve_.girth();
   const auto at = curve_.at(s);
-  double out = at.nu + kTwoPi * std::round((s - at.s) / girth);
+  double out = normal(s);
   for (const Seam& seam : seams_) {
     const double apart = std::abs(std::remainder(at.s - seam.s, girth));
     if (apart >= half_width_) continue;

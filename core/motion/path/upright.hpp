@@ -39,6 +39,8 @@ class Upright {
   /// Returns the angle of the torch's plane at girth `s`, rad, with whole revolutions: from x
   /// towards y.
   [[nodiscard]] double angle(double s) const;
+  /// Returns the angle of the normal itself there, counted in the same way.
+  [[nodiscard]] double normal(double s) const;
   /// Returns the place of the outside, mm.
   [[nodiscard]] Eigen::Vector2d point(double s) const { return curve_.at(s).point; }
   /// Returns the girths strictly between two, ascending, at which the curvature jumps or a blend

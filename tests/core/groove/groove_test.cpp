@@ -149,6 +149,13 @@ TEST(GrooveErrors, ALimitThatIsFollowedIsAccepted) {
     EXPECT_GT(spec.root_face.width, wall - 0.02);
     EXPECT_FALSE(refused_by(spec, ErrorCode::root_width)) << wall;
   }
+  for (const double eccentricity : {-80.0, 79.9, 200.0}) {
+    GrooveSpec spec = good();
+    spec.eccentricity = eccentricity;
+    ASSERT_TRUE(refused_by(spec, ErrorCode::no_pierce));
+    spec.eccentricity = std::copysign(limit_of(spec), eccentricity);
+    EXPECT_FALSE(refused_by(spec, ErrorCode::no_pierce)) << eccentricity;
+  }
   for (const double at : {0.0, 20.0, 160.0, 340.0}) {
     GrooveSpec spec = groove_case("C_oblique_offset");
     spec.filler = FillerHeight{0.01, Angle::deg(at)};

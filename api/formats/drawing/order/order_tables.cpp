@@ -254,13 +254,21 @@ void draw_steps(OrderSheets& sheets, const part::PartSpec& spec, const part::Par
   constexpr double kRow = 4.4;
   draw_head(sheets, "Sequence, in mm from the start's long point", {}, 3.0 * kRow);
   const auto all = step_texts(spec, part);
+  constexpr double kRoom = 0.5 * OrderSheets::kWide - 6.0, kLine = 3.2;
+  std::vector<std::vector<std::string>> lines;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    lines.push_back(wrapped(std::to_string(k + 1) + "  " + all[k], kSmall.height, kRoom));
   for (std::size_t i = 0; i < all.size(); i += 2) {
-    const double y = sheets.take(kRow) - 3.4;
-    for (std::size_t k = i; k < std::min(i + 2, all.size()); ++k) {
+    const auto after = std::min(i + 2, all.size());
+    std::size_t most = 1;
+    for (std::size_t k = i; k < after; ++k) most = std::max(most, lines[k].size());
+    const double tall = kRow + kLine * static_cast<double>(most - 1);
+    const double y = sheets.take(tall) - 3.4;
+    for (std::size_t k = i; k < after; ++k) {
       const double x = OrderSheets::kLeft + (k == i ? 0.0 : 0.5 * OrderSheets::kWide);
-      const auto text = std::to_string(k + 1) + "  " + all[k];
       sheets.canvas().rectangle({x, y - 0.4}, {x + 2.4, y + 2.0}, kBox);
-      sheets.canvas().label({x + 4.0, y}, text, kSmall, 0.5 * OrderSheets::kWide - 6.0);
+      for (std::size_t n = 0; n < lines[k].size(); ++n)
+        sheets.canvas().text({x + 4.0, y - kLine * static_cast<double>(n)}, lines[k][n], kSmall);
     }
   }
 }

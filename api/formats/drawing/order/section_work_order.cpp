@@ -197,13 +197,13 @@ void draw_faces(OrderSheets& sheets, const part::SectionPartSpec& spec,
 std::string cutout_step(const part::SectionPart& part, const part::Step& step) {
   const auto& one = part.cutouts.instances[step.index];
   return "cut " + cutout_tag(part.cutouts, step.index) + " on face " + std::to_string(one.face) +
-         ", its middle " + mm(one.z) + " from the start's long point";
+         ", its place " + mm(one.z) + " from the start's long point";
 }
 
 std::string text_step(const cutout::Lettering& text) {
   return "mark " + text_in_words(text) + ", on face " + std::to_string(text.face) +
-         (text.offset == 0.0 ? "" : ", " + mm(text.offset) + " off its middle") + ", from " +
-         mm(text.z) + " on";
+         (text.offset == 0.0 ? "" : ", " + mm(text.offset) + " off its middle") +
+         ", its base line from " + mm(text.z) + " on";
 }
 
 /// The operations on the blank, in their order.
@@ -232,12 +232,15 @@ void draw_section_steps(OrderSheets& sheets, const part::SectionPartSpec& spec,
     }
   }
   constexpr double kRow = 4.4;
-  const double top = sheets.take(7.0 + kRow * static_cast<double>(steps.size()));
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    for (auto& line : wrapped(std::to_string(i + 1) + "  " + steps[i], kSmall.height, kWide))
+      lines.push_back(std::move(line));
+  const double top = sheets.take(7.0 + kRow * static_cast<double>(lines.size()));
   auto& canvas = sheets.canvas();
   canvas.text({kLeft, top - 5.0}, "Steps", kHead);
-  for (std::size_t i = 0; i < steps.size(); ++i)
-    canvas.label({kLeft, top - 5.0 - kRow * static_cast<double>(i + 1)},
-                 std::to_string(i + 1) + "  " + steps[i], kSmall, kWide);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    canvas.text({kLeft, top - 5.0 - kRow * static_cast<double>(i + 1)}, lines[i], kSmall);
 }
 
 /// The saw's settings, if an end is one plane.
