@@ -97,7 +97,7 @@ std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std
                 .joint = joined.joint_of(end.member, cut.member),
                 .at = "members/" + std::to_string(cut.member),
                 .missing = cut.missing};
-    if (m.section) {
+    if (cut.box) {
       auto box = joint::box_of(m);
       box.corner = cut.box->corner;  // sharp where two ends share it
       one.partner = box;

@@ -307,6 +307,37 @@ TEST(EverydayFrames, RailsAsWideAsTheirLegsEndFlatOnTheFaces) {
   }
 }
 
+/// A rafter on the beam that its post carries: the post ends under the beam, so the face that it
+/// would have next to the rafter cuts nothing, whatever the last decimal of a turned model is.
+TEST(EverydayFrames, ARafterEndsOnTheBeamAndNotOnThePostBelow) {
+  for (const double turned : {0.0, 7.0, 15.5, 33.0, 61.3, 88.0}) {
+    const auto at = [&](double x, double y, double z) {
+      const double c = std::cos(turned * kRadPerDeg), s = std::sin(turned * kRadPerDeg);
+      const auto rounded = [](double v) { return std::to_string(std::round(v * 1e3) / 1e3); };
+      return "[" + rounded(c * x - s * y) + ", " + rounded(s * x + c * y) + ", " + rounded(z) + "]";
+    };
+    const auto members =
+        square("beam", at(-300, 0, 2300), at(1000, 0, 2300), "RHS 150x100x5 EN 10219", "[0, 0, 1]",
+               0) +
+        "," +
+        square("post", at(0, 0, 0), at(0, 0, 2300), "SHS 100x100x4 EN 10219",
+               "[" + std::to_string(std::cos(turned * kRadPerDeg)) + ", " +
+                   std::to_string(std::sin(turned * kRadPerDeg)) + ", 0]",
+               1) +
+        "," +
+        square("rafter", at(0, 0, 2300), at(0, 3000, 2300), "RHS 80x40x3 EN 10219", "[0, 0, 1]", 2);
+    const auto answer =
+        post(kFrames, with(frame(members, ""), "connect", parsed(R"({"within_mm": 1})")));
+    ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+    EXPECT_EQ(text(answer.body, "verdict/status"), "ok") << turned;
+    for (const auto& joint : *testing::at(answer.body, "result/joints").as<Json::Array>())
+      if (text(joint, "branch") == "rafter") {
+        EXPECT_EQ(text(joint, "chord"), "beam") << turned;
+        EXPECT_GT(number(joint, "weld_mm"), 200.0) << turned;
+      }
+  }
+}
+
 /// A chord runs past the post that ends on it, by any length: that is no end that misses it.
 TEST(EverydayFrames, AChordMayRunPastItsLastPost) {
   for (const int past : {20, 60, 100, 130, 200}) {

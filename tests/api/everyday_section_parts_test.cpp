@@ -236,7 +236,7 @@ TEST(EverydaySectionParts, PathsAlongTheMiddleOfAFaceDoNotTurnTheTube) {
     const auto text = api::dump(body);
     const auto answer = post(kParts, std::string_view(text),
                              "format=gcode&speed_mm_min=1200&lead_mm=2&marks=on"
-                             "&mark_speed_mm_min=1200&dialect=linuxcnc");
+                             "&mark_speed_mm_min=1200&pivot_length_mm=0");
     ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 600);
     EXPECT_LT(largest_turn(answer.outcome.body), 30.0) << text;
   }

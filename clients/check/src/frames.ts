@@ -29,7 +29,7 @@ export function checkFrame(scope: Scope, answer: Body, know: Knowledge): void {
     checkJoint(scope, request, joint, members, made, pieces, know);
     checkStated(scope, request, joint, members, made);
   }
-  scope.covers('joints/*/gap_mm', 'joints/*/depth_mm').not('joints/*/fit_up', 'only that end and hole keep the gap where they stand, within alike_within_mm');
+  scope.covers('joints/*/gap_mm', 'joints/*/depth_mm').not('joints/*/fit_up', 'only that end and hole keep the gap in the world, within alike_within_mm');
 }
 
 function checkCutList(scope: Scope, request: Body, result: Body, made: Map<string, Body>, know: Knowledge): void {

@@ -277,8 +277,8 @@ void warn(const NodeSpec& spec, const MemberEnd& end, const Around& around,
     if (const double step = mitre_step(spec, end, cut); step > least(cut))
       out.push_back({.code = WarningCode::mitre_steps,
                      .member = at,
-                     .detail = "its edge and that of " + called(spec, cut.member) +
-                               " are up to " + brief(step) + " mm apart"});
+                     .detail = "its edge and that of " + called(spec, cut.member) + " are up to " +
+                               brief(step) + " mm apart"});
   if (end.open) out.push_back({.code = WarningCode::end_open, .member = at});
   if (end.consumed) out.push_back({.code = WarningCode::end_consumed, .member = at});
 }
@@ -304,7 +304,7 @@ Result<MemberEnd> place_end(const NodeSpec& spec, std::size_t index, const Aroun
 std::optional<Warning> no_cutter(const NodeSpec& spec, const MemberEnd& end, const Around& around,
                                  std::size_t index, const Presence& seen) {
   const auto& cut = end.cut_by[index];
-  if (cut.plane || !seen.anywhere) return std::nullopt;
+  if (cut.plane || !(seen.anywhere || seen.flush)) return std::nullopt;
   const auto at = place_of(end.member, end.end);
   const double sine = sine_between(spec.members[end.member], spec.members[cut.member]);
   if (seen.consumes && sine < detail::kNearParallel)
@@ -330,7 +330,7 @@ Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Aroun
     TRY(auto out, place_end(spec, index, around, cutters));
     std::optional<std::size_t> none;
     if (!cutters.empty()) {
-      const auto seen = detail::inspect(spec, around.lines, around.applied, out);
+      const auto seen = detail::inspect({spec, around.applied, around.lines, around.all}, out);
       for (std::size_t i = 0; i < seen.size() && !none; ++i)
         if (auto why = no_cutter(spec, out, around, i, seen[i])) {
           none = i;

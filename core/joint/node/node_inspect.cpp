@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/joint/node/cut_away.hpp"
 #include "core/joint/node/node_parts.hpp"
 #include "core/joint/section/section_contour.hpp"
 #include "core/joint/section/section_place.hpp"
@@ -63,8 +64,19 @@ double overhang(const NodeSpec& spec, const Applied& applied, std::size_t end) {
 /// The inspection of one end.
 class EndInspection {
  public:
-  EndInspection(const NodeSpec& spec, const Lines& lines, const Applied& applied, MemberEnd& end)
-      : spec_(spec), lines_(lines), applied_(applied), end_(end), seen_(end.cut_by.size()) {}
+  EndInspection(const Joints& joints, MemberEnd& end)
+      : spec_(joints.spec),
+        lines_(joints.lines),
+        applied_(joints.applied),
+        end_(end),
+        seen_(end.cut_by.size()) {
+    for (const auto& cut : end.cut_by) cut_away_.emplace_back(joints, end.member, cut.member);
+  }
+
+  /// Returns true if a partner ends before its work point, so that contacts may lie beyond it.
+  [[nodiscard]] bool any_cut_away() const {
+    return !std::ranges::all_of(cut_away_, &CutAway::empty);
+  }
 
   /// Finds ghosts and the highest z on the generators of one surface.
   void scan(std::span<const PreparedCutter> cutters, const std::vector<Generator>& lines,
@@ -77,6 +89,7 @@ class EndInspection {
       seen.consumes = seen.consumes || top->z > length;
       seen.highest = std::max(seen.highest, top->z);
       end_.consumed = end_.consumed || top->z > length;
+      see_hidden(cutters, line, *top);
       const auto at = hit(cutters[top->cutter], line);
       if (end_.cut_by[top->cutter].plane || !at)
         seen.there = true;
@@ -90,10 +103,24 @@ class EndInspection {
   [[nodiscard]] std::vector<Presence> take() { return std::move(seen_); }
 
  private:
+  /// Sees partners whose surface is flush with the highest one: a face below that is cut away
+  /// before it does not hold the end, although rounding may put it on top elsewhere.
+  void see_hidden(std::span<const PreparedCutter> cutters, const Generator& line,
+                  const Contact& top) {
+    for (std::size_t i = 0; i < cutters.size(); ++i) {
+      if (i == top.cutter || cut_away_[i].empty()) continue;
+      const auto at = hit(cutters[i], line);
+      if (!at || at->z < top.z - kFlushFaces) continue;
+      const auto off = missing(i, line, *at);
+      auto& seen = seen_[i];
+      (off.by <= kStep || off.instead ? seen.there : seen.flush) = true;
+      seen.nearest = std::min(seen.nearest, off.by);
+    }
+  }
   void see(std::size_t cutter, const Generator& line, const Hit& at) {
     auto& cut = end_.cut_by[cutter];
     auto& seen = seen_[cutter];
-    const auto off = missing(cut, line, at);
+    const auto off = missing(cutter, line, at);
     if (off.by <= kStep || off.instead) seen.there = true;
     if (off.by <= kStep) return;
     seen.nearest = std::min(seen.nearest, off.by);
@@ -102,25 +129,32 @@ class EndInspection {
     cut.missing = off.by;
     cut.instead = off.instead;
   }
-  [[nodiscard]] Short missing(const CutBy& cut, const Generator& line, const Hit& at) const {
+  [[nodiscard]] Short missing(std::size_t cutter, const Generator& line, const Hit& at) const {
+    const auto& cut = end_.cut_by[cutter];
     const auto& m = spec_.members[cut.member];
-    if (!beyond(m, cut, at.axial)) return {};
-    const auto end = end_index(cut.member, along(cut, at.axial) < 0.0 ? End::start : End::finish);
+    const bool is_beyond = beyond(m, cut, at.axial);
+    if (!is_beyond && cut_away_[cutter].empty()) return {};
     const Vector3d place = end_.frame.origin +
                            end_.frame.rows.transpose() * Vector3d(line.radius * line.cos_phi,
                                                                   line.radius * line.sin_phi, at.z);
+    if (const double off = cut_away_[cutter].length(place); off > kCutAway) return {.by = off};
+    if (!is_beyond) return {};
+    const auto end = end_index(cut.member, along(cut, at.axial) < 0.0 ? End::start : End::finish);
     auto out = short_of(spec_, lines_, end, place);
     if (!out.instead && !lines_.mates[end]) out.by -= overhang(spec_, applied_, end);
     return out;
   }
 
-  static constexpr double kStep = 0.01;  // mm: negligible
+  static constexpr double kStep = 0.01;        // mm: negligible
+  static constexpr double kFlushFaces = 0.05;  // mm
+  static constexpr double kCutAway = 0.5;      // mm: where two cuts meet, either may hold
 
   const NodeSpec& spec_;
   const Lines& lines_;
   const Applied& applied_;
   MemberEnd& end_;
   std::vector<Presence> seen_;
+  std::vector<CutAway> cut_away_ = {};  // of each partner
 };
 
 /// The generators of one surface for the scan.
@@ -176,12 +210,12 @@ bool closed(std::span<const Cutter> cutters, const section::Curve& outline) {
   return trace(cutters, outline).has_value();
 }
 
-std::vector<Presence> inspect(const NodeSpec& spec, const Lines& lines, const Applied& applied,
-                              MemberEnd& end) {
+std::vector<Presence> inspect(const Joints& joints, MemberEnd& end) {
+  const auto& spec = joints.spec;
   const auto& m = spec.members[end.member];
   const double length = (m.finish - m.start).norm();
   const auto cutters = prepared_seats(end);
-  EndInspection inspection(spec, lines, applied, end);
+  EndInspection inspection(joints, end);
   std::vector<Cutter> seats;
   if (m.section)
     for (const auto& cut : end.cut_by)
@@ -199,7 +233,7 @@ std::vector<Presence> inspect(const NodeSpec& spec, const Lines& lines, const Ap
       return most.z < length && !beyond(spec.members[cut.member], cut, most.axial) &&
              !beyond(spec.members[cut.member], cut, -most.axial);
     });
-    if (nothing)
+    if (nothing && !inspection.any_cut_away())
       inspection.all_there();
     else
       inspection.scan(cutters, surface.outline ? lines_on(*surface.outline) : lines_on(rho),

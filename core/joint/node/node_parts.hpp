@@ -104,6 +104,14 @@ void part_passing(const NodeSpec& spec, Joined& joined);
 /// Mitres the ends in line without a stated joint and without anything between them.
 void join_lines(const NodeSpec& spec, const Lines& lines, Joined& joined, Applied& out);
 
+/// Who joins whom, and how.
+struct Joints {
+  const NodeSpec& spec;
+  const Applied& applied;
+  const Lines& lines;
+  const Joined& joined;
+};
+
 /// The surface on which an end lies: as `partner_of`, at the joint's seat.
 using Seat = std::variant<TubeCutter, PlaneCutter, RectangularTubeCutter>;
 [[nodiscard]] Seat seat_of(const CutBy& cut);
@@ -117,6 +125,7 @@ using Seat = std::variant<TubeCutter, PlaneCutter, RectangularTubeCutter>;
 /// Where a cutter holds an end.
 struct Presence {
   bool anywhere = false;   // true if it cuts some generator
+  bool flush = false;      // true if, beyond its own ends, it is flush with another that cuts
   bool there = false;      // true if it cuts one within its own ends
   bool consumes = false;   // true if it cuts one beyond the target's other end
   double highest = 0.0;    // of its contacts, from the end, mm
@@ -124,7 +133,6 @@ struct Presence {
 };
 /// Sets open, consumed and the ghosts of one end, and returns a Presence for each cutter. The scan
 /// is skipped if bounds already show that there is nothing to find, and all cutters are present.
-std::vector<Presence> inspect(const NodeSpec& spec, const Lines& lines, const Applied& applied,
-                              MemberEnd& end);
+std::vector<Presence> inspect(const Joints& joints, MemberEnd& end);
 
 }  // namespace tubecut::joint::detail

@@ -328,7 +328,7 @@ std::vector<Warning> once_a_pair(const NodeSpec& spec, const Nodes& nodes) {
     for (const auto& cut : end.cut_by) {
       if (!cut.plane || cut.member > end.member) continue;
       const auto place = place_of(end.member, end.end);
-      const auto of = " that of " + detail::called(spec, cut.member) + " stand ";
+      const auto of = " that of " + detail::called(spec, cut.member) + " are ";
       std::erase_if(out, [&](const Warning& w) {
         return w.code == WarningCode::mitre_steps && w.member == place &&
                w.detail.find(of) != std::string::npos;

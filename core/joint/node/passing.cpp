@@ -10,12 +10,12 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kEquallyWide = 1e-9;  // mm
-constexpr int kHalvings = 60;
+constexpr int kWayHalvings = 60;
 
 /// Returns the length along unit `along` from `from`, which lies inside, to the endless surface.
 double way_out(const Member& chord, const Vector3d& from, const Vector3d& along, double most) {
   double inside = 0.0, outside = most;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kWayHalvings; ++i) {
     const double middle = 0.5 * (inside + outside);
     (detail::distance_from(chord, from + middle * along) < 0.0 ? inside : outside) = middle;
   }

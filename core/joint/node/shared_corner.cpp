@@ -13,33 +13,33 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kAcross = 1e-3;   // cosine to a face's normal below which a member runs along it
-constexpr double kPastEdge = 0.1;  // mm: coordinates are rounded
-constexpr double kOntoFace = 0.1;  // cosine from which a member stands on a face
+constexpr double kAlongFace = 1e-3;  // cosine to a face's normal below which a member runs along it
+constexpr double kPastEdge = 0.1;    // mm: coordinates are rounded
+constexpr double kOntoFace = 0.1;    // cosine from which a member stands on a face
 
 Vector3d into(const EndOf& one) { return one.member.into(one.end).normalized(); }
 
 /// The face that a member leaves the chord by: its normal, and its distance from the chord's axis.
-struct Face {
+struct ChordFace {
   Vector3d normal;
   double half;
 };
-std::optional<Face> face_of(const Member& chord, const Vector3d& along) {
+std::optional<ChordFace> face_of(const Member& chord, const Vector3d& along) {
   const Vector3d height = height_of(chord);
   const Vector3d width = (chord.finish - chord.start).normalized().cross(height);
-  std::optional<Face> out;
+  std::optional<ChordFace> out;
   double most = kOntoFace;
   for (const Vector3d& normal : std::array<Vector3d, 4>{height, -height, width, -width})
     if (const double cosine = normal.dot(along); cosine > most) {
       most = cosine;
-      out = Face{normal, support(chord, normal)};
+      out = ChordFace{normal, support(chord, normal)};
     }
   return out;
 }
 
 /// Returns true if a member that runs along a face reaches into the rounding at its edge.
-bool reaches_rounding(const EndOf& one, const Face& face, const Member& chord) {
-  if (std::abs(into(one).dot(face.normal)) > kAcross) return false;
+bool reaches_rounding(const EndOf& one, const ChordFace& face, const Member& chord) {
+  if (std::abs(into(one).dot(face.normal)) > kAlongFace) return false;
   const double reach =
       (one.member.at(one.end) - chord.start).dot(face.normal) + support(one.member, face.normal);
   return reach > face.half - chord.section->corner && reach <= face.half + kPastEdge;

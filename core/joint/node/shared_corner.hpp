@@ -21,13 +21,6 @@ struct EndOf {
 /// would run into each other there, so they end flat on the faces.
 [[nodiscard]] bool share_corner(const EndOf& a, const EndOf& b, const Member& chord);
 
-/// Who joins whom, and how.
-struct Joints {
-  const NodeSpec& spec;
-  const Applied& applied;
-  const Lines& lines;
-  const Joined& joined;
-};
 /// Returns true if an end of `other`, cut by the same chord, shares its corner with end `index`.
 [[nodiscard]] bool shares_corner(const Joints& joints, std::size_t index, std::size_t other,
                                  std::size_t chord);

@@ -108,9 +108,10 @@ Result<void> close(Track& t, double gap) {
   auto& points = t.points;
   const bool near = std::abs(gap) <= kClosing;
   const bool there = near && agree(points.front(), points.back());
-  // An event of the curve may lie that near before the first row, on a steep curve too.
+  // A corner of the curve may lie that near before the first row; on it a torch's line is steep.
   const double rise = std::abs(points.back().z - points.front().z);
-  const bool before = t.turns != 0 && gap > kSamePhi && rise <= kSteepest * t.radius * gap;
+  const bool before = t.turns != 0 && gap > kSamePhi &&
+                      (points.back().corner || rise <= kSteepest * t.radius * gap);
   if (near && !there && !before) {
     return fail({ErrorCode::not_closed, "contour", points.back().z - points.front().z, kClosing,
                  "mm", "the ends differ in z or b"});
