@@ -2,9 +2,10 @@
 
 // Computes the curve along which a tube must be cut to fit its partners.
 //
-// Idea: on each line of the target parallel to its axis, the cut is at the highest contact of any
-// partner. Each contact has a closed form, and exact events (another partner takes over, one is
-// lost, one has a corner) divide the curve into smooth segments.
+// Idea: on each line of the target parallel to its axis, the cut is at the contact with a partner
+// that is furthest along +z. Each contact has a closed form, and exact events (the curve passes to
+// another partner, leaves a partner, or crosses a corner of a partner) divide it into smooth
+// segments.
 //
 // Example: a tube of 60.3 x 4 on a chord of 114.3 at 60 deg.
 //     joint::IntersectionSpec spec;
@@ -55,17 +56,18 @@ struct Intersection {
   std::vector<Warning> warnings;
 };
 
-/// Computes the curves where the target's surfaces leave their partners.
+/// Computes the curves along which the target's inner and outer surface meet the partners.
 ///
 /// Errors  those of `resolve`, `trace` and `sample`; member_consumed (target/length).
 /// Source  docs/theory/intersections-and-bevels.md, sections 1 and 3.
 [[nodiscard]] Result<Intersection> intersect(const IntersectionSpec& spec);
 
-/// Verifies the answer in 3D: distances by cross product, heights by the quadratic of line and
-/// cylinder.
+/// Verifies the answer in 3D: distances by cross product, heights by solving the quadratic of line
+/// and cylinder.
 [[nodiscard]] std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answer);
 
-/// Returns warnings for partners that no generator meets or that are nearly parallel.
+/// Returns warnings for partners that no generator meets, or whose axes are nearly parallel to the
+/// target's.
 [[nodiscard]] std::vector<Warning> partner_warnings(const Contour& contour);
 
 /// Returns the error member_consumed if the curve extends beyond the target's far end.

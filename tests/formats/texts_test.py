@@ -217,7 +217,6 @@ class Texts(FormatTest):
                 "texts": [{"id": "a", "at": {"z_mm": 703, "phi_deg": 90}, "text": "A-12345678 REV B", "height_mm": 7},
                           {"id": "b", "at": {"z_mm": 611, "phi_deg": 345}, "text": "TOP", "height_mm": 10, "angle_deg": 90}]}
         order = self.service.text("parts", body, "format=svg&view=work_order").decode()
-        self.assertNotIn("...", order)
         for place in ("703", "611"):
             self.assertRegex(order, rf">[^<]*\b{place}\b")
 

@@ -2,8 +2,9 @@
 
 // Finds at every end of every member which members join it, which of them cut it, and where.
 //
-// Idea: a total order (priority, then diameter) determines who cuts whom, so two members never cut
-// each other. Each cut end gets its own frame, in which `intersect` and `bevel::table` work.
+// Idea: an order of the members (see `NodeSpec`) determines which member cuts which, so two members
+// never cut each other. Each cut end gets its own frame, in which `intersect` and `bevel::table`
+// work.
 //
 // Example: a brace from the middle of a chord; the chord cuts its start.
 //     joint::NodeSpec spec;
@@ -32,8 +33,8 @@ namespace tubecut::joint {
 /// Maximum number of cutters of one end.
 inline constexpr std::size_t kMostCutters = 64;
 
-/// An end joins every member whose axis, between its ends, is within `distance` + that member's
-/// radius, or reach of its section.
+/// An end joins a member if its distance to that member's axis, between its ends, is at most
+/// `distance` plus the member's radius. For a section, its reach replaces the radius.
 struct Within {
   double distance = 0.0;
 };
@@ -44,21 +45,22 @@ struct Link {
   std::vector<std::size_t> to;
 };
 
-/// Members that meet at one or more nodes. Of two that join, the one with the lower priority
-/// number, then the larger diameter (of a section the larger side) cuts the other. If both are
-/// equal and found by `Within`, the one that continues where the other ends cuts; then the earlier
-/// in the list, for members in line the earliest of the line. Two members never cut each other. If
-/// no joint of two is stated, they are set on without a gap; if they are in line (in_line.hpp) and
-/// nothing between them cuts both on all sides, they are mitred.
+/// Members that meet at one or more nodes. Of two that join, the one that cuts the other has:
+///   1. the lower priority number;
+///   2. if equal, the larger diameter, or larger side of a section;
+///   3. if equal and joined by `Within`, the axis that continues where the other member ends;
+///   4. else the earlier place in `members`; for members in line, that of the earliest of the line.
+/// If no joint of two is stated, they are set on without a gap; if they are in line (in_line.hpp)
+/// and nothing between them cuts both on all sides, they are mitred.
 struct NodeSpec {
   std::vector<Member> members;
   Variant<Within, std::vector<Link>> connect;
   std::vector<StatedJoint> joints = {};  // stated by either of the two, or equally by both
-  std::size_t found = 0;                 // the last `found` of them are not stated but found
+  std::size_t found = 0;  // number of entries at the end of `joints` that were detected
 };
 
 /// Returns the stated joint of two members; nullptr if neither states one. If two statements
-/// differ, the first.
+/// differ, returns the first.
 [[nodiscard]] const Joint* stated_joint(const NodeSpec& spec, std::size_t a, std::size_t b);
 
 /// One member that cuts an end. Lengths in mm.
@@ -69,12 +71,12 @@ struct CutBy {
   std::optional<RectangularTubeCutter> box = {};  // of a section, likewise; the placement's tube
                                                   // has its reach as radius
   std::optional<Joint> stated = {};               // the stated joint, if any; set-in with its depth
-  double gap = 0.0;           // from the end to the member's axis between its ends
+  double gap = 0.0;           // distance from the end to the segment of the member's axis
   double eccentricity = 0.0;  // distance of the axes; of a mitre at its plane
   bool ghost = false;         // the cut follows it beyond one of its own ends
-  double missing =
-      0.0;  // the distance for `ghost`, mm; if another member continues it, the step between them
-  std::optional<std::size_t> instead = {};  // the continuing member, if its surface is lower
+  double missing = 0.0;       // how far the cut follows it beyond its metal, mm; if another member
+                              // continues it, the step between the two
+  std::optional<std::size_t> instead = {};  // that member, if its surface is lower there
 };
 
 /// One end of one member, and its cut.
@@ -92,11 +94,11 @@ struct MemberEnd {
 /// Returns the body that cuts: the member's tube or section, or a mitre's plane.
 [[nodiscard]] Partner partner_of(const CutBy& cut);
 
-/// Returns for each of `cut_by` whether it comes near the outermost somewhere on the member's
-/// outside or bore, at 180 places of each: one that others hide everywhere does not touch the
-/// member. Near: within `kHidden` of the member's reach, more than a cutter rises between two
-/// places.
+/// Fraction of the member's reach that counts as near in `cuts_anywhere`: more than a cutter rises
+/// between two samples.
 inline constexpr double kHidden = 0.005;
+/// Returns for each of `cut_by` whether it is on or near the outermost surface at any of 180
+/// samples, on the outside or the bore. If others hide a cutter everywhere, returns false for it.
 [[nodiscard]] std::vector<bool> cuts_anywhere(const Member& member, const MemberEnd& end);
 
 struct Nodes {
@@ -104,13 +106,13 @@ struct Nodes {
   std::vector<Warning> warnings;
 };
 
-/// Finds the joining members at every end, who cuts whom, and where. Phase zero of an end: `up`;
-/// else that of source 000, which gives its chord clocking 0; an end without cutters takes the
-/// world axis furthest from its own (the first of equals).
+/// Finds the joining members at every end, which of them cut it, and where. Phase zero of an end is
+/// `up` if given, otherwise the direction in which its chord has clocking 0; an end without cutters
+/// takes the world axis furthest from its own (the first of equals).
 ///
 /// A found member cuts an end only if it is present there: if all its contacts lie beyond its own
-/// ends, it does not cut. Neither does one within 5 deg of parallel if its cut would extend beyond
-/// the other end (parallel_members).
+/// ends, or where other members have cut it away, it does not cut. A found member within 5 deg of
+/// parallel does not cut either, if its cut would extend beyond the other end (parallel_members).
 ///
 /// A stated joint changes who cuts: for through, neither cuts the other; for mitre, a plane cuts
 /// both. The plane passes through the point where the axes are nearest to each other (if they are
