@@ -198,6 +198,14 @@ std::string contradiction(const Config& c) {
   return {};
 }
 
+/// Returns true if one letter is missing, added or another, or two neighbours are swapped.
+bool one_slip_apart(std::string_view a, std::string_view b) {
+  while (!a.empty() && !b.empty() && a.front() == b.front()) a.remove_prefix(1), b.remove_prefix(1);
+  while (!a.empty() && !b.empty() && a.back() == b.back()) a.remove_suffix(1), b.remove_suffix(1);
+  if (a.size() == 2 && b.size() == 2) return a[0] == b[1] && a[1] == b[0];
+  return a.size() <= 1 && b.size() <= 1;
+}
+
 /// The first TUBECUT_ variable of the environment that names no option but nearly does, and the one
 /// that it means. Other programs have variables of that prefix too, so the rest is theirs.
 std::string misspelled_variable(const CLI::App& app) {
@@ -213,8 +221,13 @@ std::string misspelled_variable(const CLI::App& app) {
     const auto name = text.substr(kPrefix.size(), text.find('=') - kPrefix.size());
     const auto is_name = [&](std::string_view one) { return one == name; };
     if (std::ranges::any_of(known, is_name) || std::ranges::any_of(others, is_name)) continue;
-    if (name.size() == 5 || name.size() == 6) continue;  // too many words are two letters apart
-    if (const auto meant = api::slip_of(name, known); !meant.empty())
+    const auto near = std::ranges::find_if(
+        known, [&](const std::string& one) { return one_slip_apart(name, one); });
+    const bool two_slips = name.size() != 5 && name.size() != 6;  // too many words are so near
+    const auto meant = near != known.end() ? *near
+                       : two_slips         ? api::slip_of(name, known)
+                                           : std::string();
+    if (!meant.empty())
       return fmt::format("{0}{1} in the environment names no option; {0}{2} does", kPrefix, name,
                          meant);
   }

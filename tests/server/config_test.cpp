@@ -43,13 +43,15 @@ TEST(Config, HasTheDocumentedDefaults) {
 }
 
 TEST(Config, RefusesAMisspelledVariableOfTheEnvironment) {
-  for (const auto* name : {"TUBECUT_ADMINPORT", "TUBECUT_DRAIN_DELAYS", "TUBECUT_Port"}) {
+  for (const auto* name : {"TUBECUT_ADMINPORT", "TUBECUT_DRAIN_DELAYS", "TUBECUT_Port",
+                           "TUBECUT_PROT", "TUBECUT_PORTT", "TUBECUT_HOSST", "TUBECUT_SLOST"}) {
     const Variable slip(name, "1");
     const auto command = read({});
     ASSERT_FALSE(command) << name;
     EXPECT_NE(command.error().err.find(name), std::string::npos) << command.error().err;
   }
-  for (const auto* name : {"TUBECUT_KEY", "TUBECUT_URL", "TUBECUT_SERVICE_HOST", "TUBECUT_SEED"}) {
+  for (const auto* name : {"TUBECUT_KEY", "TUBECUT_URL", "TUBECUT_SERVICE_HOST", "TUBECUT_SEED",
+                           "TUBECUT_TESTS", "TUBECUT_PARTS", "TUBECUT_SITE", "TUBECUT_RATES"}) {
     const Variable other(name, "1");
     EXPECT_TRUE(read({})) << name;
   }
