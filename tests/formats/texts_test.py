@@ -240,6 +240,17 @@ class Texts(FormatTest):
         named = [s for s in segments if s["kind"] == "mark"]
         self.assertEqual(len(named), 1 + len(self.letters("A-12")))
 
+    def test_marks_have_no_slow_zones(self):
+        """Nothing burns while the torch is off, so a short stroke that an axis slows down is no warning."""
+        part = {"target": {"outer_diameter_mm": 60.3, "wall_mm": 3, "length_mm": 300}, "kerf_mm": 1.5,
+                "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+                "texts": [{"id": "t", "at": {"z_mm": 100, "phi_deg": 10}, "text": "A1", "height_mm": 8}]}
+        for speed in (300, 1200, 3000):
+            motion = {"speed": {"mm_min": 1200}, "lead": {"radius_mm": 3}, "pierce_delay_s": 0.2, "marks": {"speed_mm_min": speed}}
+            answer = self.service.answer("pulse-schedules", {"part": part, "machine": "generic", "motion": motion})
+            self.assertNotIn("slow_zone", [warning["code"] for warning in answer["warnings"]], speed)
+            self.assertEqual(answer["verdict"]["status"], "ok", speed)
+
 
 if __name__ == "__main__":
     main()
