@@ -307,6 +307,37 @@ TEST(EverydayFrames, RailsAsWideAsTheirLegsEndFlatOnTheFaces) {
   }
 }
 
+/// The parts of such a table are the answers to their own requests, as a shop sends them next, in
+/// mm and of sizes in inches, cut square or bevelled; the node tells the same.
+TEST(EverydayFrames, FlatEndsAtASharedCornerAreThoseOfTheirOwnRequests) {
+  const std::string bevelled =
+      R"({"kerf_mm": 1.5, "sampling": {"tolerance_mm": 0.05}, "defaults": {"root_surface": "inner",
+          "groove": {"rule": "half_dihedral"}, "smoothing": {"method": "none"},
+          "contact": "auto"}, "members": [)";
+  for (const bool square_cut : {true, false})
+    for (const auto& table : {Table{"SHS 40x40x3 EN 10219", 40, 680, 31.7},
+                              Table{"HSS 50.8x50.8x3.18 ASTM A500", 50.8, 600, 0, false, true}}) {
+      const auto members = members_of(table);
+      const auto plain = square_cut ? frame(members, "") : parsed(bevelled + members + "]}");
+      const auto connect = parsed(R"({"within_mm": 1})");
+      const auto answer = post(kFrames, with(plain, "connect", connect));
+      ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+      for (const auto& one : *at(answer.body, "parts").as<Json::Array>()) {
+        const auto again = post("/v1/parts", at(one, "answer/request"));
+        ASSERT_FALSE(again.outcome.error) << again.outcome.body.substr(0, 800);
+        EXPECT_EQ(text(again.body, "job/result_sha256"), text(one, "answer/job/result_sha256"))
+            << table.size << " " << text(one, "part");
+      }
+      const auto node = post(
+          "/v1/nodes", parsed(R"({"members": [)" + members + R"(], "connect": {"within_mm": 1}})"));
+      ASSERT_FALSE(node.outcome.error) << node.outcome.body.substr(0, 800);
+      std::size_t told = 0;
+      for (const auto& warning : *at(node.body, "warnings").as<Json::Array>())
+        told += text(warning, "code") == "corner_shared" ? 1 : 0;
+      EXPECT_EQ(told, 8u) << table.size;
+    }
+}
+
 /// A rafter on the beam that its post carries: the post ends under the beam, so the face that it
 /// would have next to the rafter cuts nothing, whatever the last decimal of a turned model is.
 TEST(EverydayFrames, ARafterEndsOnTheBeamAndNotOnThePostBelow) {

@@ -29,10 +29,9 @@ CutAway::CutAway(const Joints& joints, std::size_t own, std::size_t member) {
   for (const auto end : {2 * member, 2 * member + 1})
     for (const auto& touch : joined[end]) {
       const auto other = touch.other;
-      const auto known = applied.joints.find(std::minmax(member, other));
-      const bool set_on = known == applied.joints.end() || known->second.kind == JointKind::set_on;
-      if (other == own || !set_on || lines.line[member] == lines.line[other] ||
-          applied.mitres.contains({end, other}) || !lines.goes_before(spec, other, member) ||
+      if (other == own || !is_set_on(applied, member, other) ||
+          lines.line[member] == lines.line[other] || applied.mitres.contains({end, other}) ||
+          !lines.goes_before(spec, other, member) ||
           sine_between(m, spec.members[other]) < kNearParallel)
         continue;
       cuts_.push_back({spec.members[other], m.into(end_of(end)).normalized()});

@@ -282,6 +282,11 @@ Result<Applied> apply_joints(const NodeSpec& spec, const Lines& lines, Joined& j
   return out;
 }
 
+bool is_set_on(const Applied& applied, std::size_t member, std::size_t other) {
+  const auto known = applied.joints.find(std::minmax(member, other));
+  return known == applied.joints.end() || known->second.kind == JointKind::set_on;
+}
+
 void part_passing(const NodeSpec& spec, Joined& joined) {
   for (const auto& said : spec.joints) {
     if (said.joint.kind != JointKind::through) continue;

@@ -104,6 +104,9 @@ void part_passing(const NodeSpec& spec, Joined& joined);
 /// Mitres the ends in line without a stated joint and without anything between them.
 void join_lines(const NodeSpec& spec, const Lines& lines, Joined& joined, Applied& out);
 
+/// Returns true if the joint of two members is set on, stated or not.
+[[nodiscard]] bool is_set_on(const Applied& applied, std::size_t member, std::size_t other);
+
 /// Who joins whom, and how.
 struct Joints {
   const NodeSpec& spec;

@@ -45,12 +45,6 @@ bool reaches_rounding(const EndOf& one, const ChordFace& face, const Member& cho
   return reach > face.half - chord.section->corner && reach <= face.half + kPastEdge;
 }
 
-/// Returns true if the joint of two members is set on, stated or not.
-bool is_set_on(const Applied& applied, std::size_t member, std::size_t other) {
-  const auto known = applied.joints.find(std::minmax(member, other));
-  return known == applied.joints.end() || known->second.kind == JointKind::set_on;
-}
-
 }  // namespace
 
 bool share_corner(const EndOf& a, const EndOf& b, const Member& chord) {

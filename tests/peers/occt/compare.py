@@ -2,11 +2,11 @@
 
 Placements are drawn here, answered by the service, and given to INTERSECT as numbers; it knows nothing of our formulas."""
 
-import json
 import math
 import random
-import subprocess
 import sys
+
+from opencascade import answered, compared, held
 
 WANTED = {"tube": 100, "cone": 100, "tubes and cones": 100, "nearly tangent": 40}  # placements answered
 POINTS = 72
@@ -47,12 +47,6 @@ def placement(r, what):
             "cutters": cutters, "sampling": {"uniform_points": POINTS}}
 
 
-def answered(server, body):
-    ran = subprocess.run([server, "run", "--endpoint", "intersections", "-"], input=json.dumps(body), capture_output=True, text=True)
-    answer = json.loads(ran.stdout)
-    return answer.get("result")
-
-
 def axis(cutter):
     """A point of the partner's axis and its direction, as the contract words them."""
     if "axis" in cutter:
@@ -81,38 +75,20 @@ def lines(body, result):
 def main(server, program):
     r = random.Random(20)
     worst, failed = dict.fromkeys(BOUNDS, 0.0), False
+
+    def drawn(what):
+        body = placement(r, what)
+        result = answered(server, "intersections", body)
+        return None if result is None else lines(body, result)
     for what, wanted in WANTED.items():
-        cases, refused = [], 0
-        while len(cases) < wanted:
-            body = placement(r, what)
-            result = answered(server, body)
-            if result is None:
-                refused += 1
-                if refused > 2 * wanted:
-                    sys.exit(f"{what}: the service refuses most placements")
-                continue
-            cases.append(lines(body, result))
-        ran = subprocess.run([program], input="".join(cases), capture_output=True, text=True, check=True)
-        seen = [line.split() for line in ran.stdout.splitlines()]
-        most, counts = dict.fromkeys(BOUNDS, 0.0), dict.fromkeys(BOUNDS, 0)
-        for name, count, deviation in seen:
-            counts[name] += int(count)
-            most[name] = max(most[name], float(deviation))
-        if len(seen) != len(BOUNDS) * len(cases):
-            sys.exit(f"{what}: {len(seen)} lines for {len(cases)} cases")
-        print(f"{what}: {len(cases)} placements, {refused} more refused; largest deviation in mm (points compared): " +
-              ", ".join(f"{name} {most[name]:.2g} ({counts[name]})" for name in BOUNDS))
+        most, counts = compared(what, wanted, lambda: drawn(what), program, BOUNDS)
         failed |= counts["generator"] < wanted * POINTS or counts["curve"] < wanted * POINTS
         failed |= what == "nearly tangent" and counts["grazing"] < wanted
         for name in BOUNDS:
             # Where the two surfaces nearly touch, the walking line of GeomAPI_IntSS leaves both of them: shown, not held.
             if (what, name) != ("nearly tangent", "curve"):
                 worst[name] = max(worst[name], most[name])
-    for name, bound in BOUNDS.items():
-        good = worst[name] <= bound
-        failed |= not good
-        print(f"{name}: {worst[name]:.3g} mm, bound {bound:g} mm: {'held' if good else 'BROKEN'}")
-    sys.exit(1 if failed else 0)
+    sys.exit(not held(worst, BOUNDS) or failed)
 
 
 if __name__ == "__main__":

@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/peers/worst.hpp"
+
 namespace {
 
 constexpr double kSteep = 0.05;      // sine between line and surface below which z is not compared
@@ -89,14 +91,6 @@ std::optional<Met> highest(const std::vector<Partner>& partners, double rho, dou
   return out;
 }
 
-struct Worst {
-  long points = 0;
-  double deviation = 0.0;
-  void see(double value) {
-    ++points;
-    deviation = std::isnan(value) ? INFINITY : std::max(deviation, value);
-  }
-};
 struct Comparison {
   Worst generator, grazing, curve;
 };

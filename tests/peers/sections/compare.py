@@ -2,11 +2,11 @@
 
 Filleted boxes and their partners are drawn here, answered by the service, and given to CUT as numbers; it knows nothing of our formulas."""
 
-import json
 import math
 import random
-import subprocess
 import sys
+
+from opencascade import answered, compared, held
 
 WANTED = {"tube": 80, "plane": 60, "box": 80, "cone": 40, "several": 40}  # ends answered
 STATIONS = 48
@@ -54,11 +54,6 @@ def request(r, what):
     return {"target": target, "cutters": [partner(r, kind, reach) for kind in kinds], "sampling": {"uniform_points": STATIONS}}
 
 
-def answered(server, body):
-    ran = subprocess.run([server, "run", "--endpoint", "intersections", "-"], input=json.dumps(body), capture_output=True, text=True)
-    return json.loads(ran.stdout).get("result")
-
-
 def numbers(*all_of_them):
     return " ".join(repr(float(one)) for one in all_of_them)
 
@@ -91,35 +86,17 @@ def lines(body, result):
 def main(server, program):
     r = random.Random(52)
     worst, failed = dict.fromkeys(BOUNDS, 0.0), False
+
+    def drawn(what):
+        body = request(r, what)
+        result = answered(server, "intersections", body)
+        return None if result is None else lines(body, result)
     for what, wanted in WANTED.items():
-        cases, refused = [], 0
-        while len(cases) < wanted:
-            body = request(r, what)
-            result = answered(server, body)
-            if result is None:
-                refused += 1
-                if refused > 3 * wanted:
-                    sys.exit(f"{what}: the service refuses most ends")
-                continue
-            cases.append(lines(body, result))
-        ran = subprocess.run([program], input="".join(cases), capture_output=True, text=True, check=True)
-        seen = [line.split() for line in ran.stdout.splitlines() if line.split()[0] in BOUNDS]
-        if len(seen) != len(BOUNDS) * len(cases):
-            sys.exit(f"{what}: {len(seen)} lines for {len(cases)} cases")
-        most, counts = dict.fromkeys(BOUNDS, 0.0), dict.fromkeys(BOUNDS, 0)
-        for name, count, deviation in seen:
-            counts[name] += int(count)
-            most[name] = max(most[name], float(deviation))
-        print(f"{what}: {len(cases)} ends, {refused} more refused; largest deviation in mm (points compared): " +
-              ", ".join(f"{name} {most[name]:.2g} ({counts[name]})" for name in BOUNDS), flush=True)
+        most, counts = compared(what, wanted, lambda: drawn(what), program, BOUNDS)
         for name in BOUNDS:
             worst[name] = max(worst[name], most[name])
             failed |= counts[name] < wanted * STATIONS
-    for name, bound in BOUNDS.items():
-        good = worst[name] <= bound
-        failed |= not good
-        print(f"{name}: {worst[name]:.3g} mm, bound {bound:g} mm: {'held' if good else 'BROKEN'}")
-    sys.exit(1 if failed else 0)
+    sys.exit(not held(worst, BOUNDS) or failed)
 
 
 if __name__ == "__main__":

@@ -21,6 +21,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/peers/worst.hpp"
+
 namespace {
 
 constexpr double kReach = 3'000.0;   // mm, of solids along their axes
@@ -89,15 +91,6 @@ TopoDS_Shape read_partner() {
   return filleted(gp_Ax2(point, direction, gp_Dir(across.Crossed(direction))), height, width,
                   corner);
 }
-
-struct Worst {
-  long points = 0;
-  double deviation = 0.0;
-  void see(double value) {
-    ++points;
-    deviation = std::isnan(value) ? INFINITY : std::max(deviation, value);
-  }
-};
 
 /// The highest place where a line along z leaves any of the solids.
 class Lines {
