@@ -195,9 +195,11 @@ std::optional<Laid> Gatherer::Known::lay(const Shape& member, const Shape& by) {
     if (!laid) continue;
     const auto found = fit(one, two, *laid);
     if (!found.there || !(found.differs <= within_)) continue;
-    if (stands && std::abs(found.shift) > within_) continue;
+    const double holes =
+        stands ? std::abs(found.shift) + detail::square_holes_apart(*form, *other) : 0.0;
+    if (holes > within_) continue;
     laid->shift = found.shift;
-    laid->differs = found.differs;
+    laid->differs = std::max(found.differs, holes);
     return laid;
   }
   return std::nullopt;

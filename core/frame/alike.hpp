@@ -25,7 +25,8 @@ struct Shape {
   std::string key;       // the tube, and how both ends are cut
   std::vector<std::string> start, finish;  // of each partner
   std::vector<std::string> holes, marks;   // of each, with the part that is placed there
-  bool has_cutouts = false;  // or texts; they are in the key, so a part is only alike as it stands
+  bool has_cutouts = false;  // or texts or square holes, so a part is only alike as it stands; all
+                             // but the places of the holes are in the key
 };
 
 /// A part as requested. Of a tube that is not round, `section` is its outline, and the part's

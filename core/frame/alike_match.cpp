@@ -1,5 +1,6 @@
 #include "core/frame/alike_match.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,6 +31,27 @@ std::optional<double> higher_by(const PartnerHeights& one, const PartnerHeights&
   }
   if (on_one > kRimPhases || most - least > within) return std::nullopt;
   return most < least ? 0.0 : 0.5 * (most + least);  // 0 if both miss all generators
+}
+
+/// Returns the point of a branch's axis that is nearest to the tube's.
+Eigen::Vector3d foot(const cutout::Branch& branch) {
+  const Eigen::Vector3d& d = branch.axis.direction;
+  const double across = d.head<2>().squaredNorm();
+  const double along = across > 0.0 ? -branch.axis.point.head<2>().dot(d.head<2>()) / across : 0.0;
+  return branch.axis.point + along * d;
+}
+
+/// Returns how far the surfaces of two branches are apart at most within the tube's reach.
+double branches_apart(const cutout::Branch& one, const cutout::Branch& other, double tube) {
+  const double reach = one.section ? one.section->reach() : one.radius;
+  const Eigen::Vector3d u = one.axis.direction.normalized();
+  const Eigen::Vector3d off = foot(other) - foot(one);
+  const double turned = (other.axis.direction.normalized() - u).norm();
+  const auto across = [&](const Eigen::Vector3d& up) {
+    return Eigen::Vector3d(up - up.dot(u) * u).normalized();
+  };
+  const double twisted = one.section ? (across(other.up) - across(one.up)).norm() : 0.0;
+  return (off - off.dot(u) * u).norm() + turned * 2.0 * (tube + reach) + twisted * reach;
 }
 
 /// How the partners of one end match those of another: the index of each match.
@@ -224,6 +246,17 @@ std::optional<Laid> resembles(const Side& member, const Side& by, double turn, d
               .finish = std::move(finish->which),
               .holes = *std::move(holes),
               .marks = *std::move(marks)};
+}
+
+double square_holes_apart(const Form& one, const Form& other) {
+  const auto& holes = one.part->square_holes;
+  const auto& others = other.part->square_holes;
+  if (holes.size() != others.size()) return std::numeric_limits<double>::infinity();
+  const double tube = one.section != nullptr ? one.section->reach() : one.part->target.outer_radius;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < holes.size(); ++i)
+    worsen(worst, branches_apart(holes[i].branch, others[i].branch, tube));
+  return worst;
 }
 
 }  // namespace tubecut::frame::detail

@@ -33,4 +33,8 @@ struct Side {
 [[nodiscard]] std::optional<Laid> resembles(const Side& member, const Side& by, double turn,
                                             double within);
 
+/// Returns the maximum distance of the square holes of two parts, each from the hole of the other
+/// in the same place of the list: a bound by their branches' axes and orientations; mm.
+[[nodiscard]] double square_holes_apart(const Form& one, const Form& other);
+
 }  // namespace tubecut::frame::detail

@@ -77,7 +77,7 @@ frame::Shape shape_of(const Json& part) {
     for (const auto& one : *holes->as<Json::Array>()) {
       const auto& branch = *one.find("branch");
       if (is_section(*part.find("target")) || is_section(branch)) {  // it becomes a cut-out
-        out.key += dump(one);
+        out.key += partner_key(branch) + dump(without(one, kBranch));
         out.has_cutouts = true;
         continue;
       }
