@@ -148,7 +148,11 @@ class MetricInInches {
     }
     ++alike_;
     if (different_.empty()) path_ = path, first_ = value;
-    if (different_.size() <= kEnough && std::ranges::find(different_, mm) == different_.end())
+    // Lengths that differ by typed ones count once, because one odd place of a model moves them
+    // all.
+    if (different_.size() <= kEnough && std::ranges::none_of(different_, [&](double one) {
+          return is_near(mm - one, kTyped, 1e-9);
+        }))
       different_.push_back(mm);
   }
 

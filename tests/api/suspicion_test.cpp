@@ -92,6 +92,17 @@ TEST(Suspicion, SparesTheNumbersOfAFramesParts) {
   EXPECT_EQ(testing::text(answer.body, "verdict/status"), "ok");
 }
 
+// A table at an odd place on site: all its coordinates differ by typed lengths, so that 1234.567,
+// which is 31358 mm were it inches, is one chance and not three. Metric lengths in inches are not.
+TEST(Suspicion, CountsLengthsThatDifferByTypedOnesOnce) {
+  const auto members = [](const std::string& a, const std::string& b, const std::string& c) {
+    return suspects(R"({"members":[{"start_mm":[)" + a + "," + a + R"(,0.1],"end_mm":[)" + b + "," +
+                    c + R"(,0.1]}]})");
+  };
+  EXPECT_EQ(members("1234.567", "2034.567", "1734.567"), "");
+  EXPECT_NE(members("11.811", "19.685", "33.465"), "");
+}
+
 /// The unit_suspicion warnings of an answer, each "pointer: detail".
 std::string warned(const Json& answer) {
   std::string out;
