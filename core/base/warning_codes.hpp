@@ -22,8 +22,8 @@
     "Use smoothing envelope.")                                                                    \
   X(ghost_contact, cut, "The cut follows a partner beyond that member's end.",                    \
     "Check the partner's length, or omit it.")                                                    \
-  X(corner_shared, note, "Two ends meet at a rounded corner of the member that they stand on.",   \
-    "Both end flat on its faces; the weld fills the rounding next to them.")                      \
+  X(corner_shared, note, "Two ends meet at a corner of the member that they stand on.",           \
+    "Both end flat on its faces, or at the plane between them; state a joint for another cut.")   \
   X(comparison_only, cut,                                                                         \
     "Comparison only, do not cut: B and the root reproduce a published figure.",                  \
     "To cut, request dihedral weld_side.")                                                        \

@@ -99,9 +99,11 @@ End nearer_end(const joint::Member& branch, const joint::Member& chord) {
       near(branch, End::start, chord).distance <= near(branch, End::finish, chord).distance;
   return first ? End::start : End::finish;
 }
-/// Returns true if the branch ends between the chord's ends, as a rail on a post does.
+/// Returns true if the branch ends between the chord's ends, as a rail on a post does, and is not
+/// too wide for it.
 bool ends_between(const joint::Member& branch, const joint::Member& chord) {
-  return near(branch, nearer_end(branch, chord), chord).inside > chord.reach();
+  const double inside = near(branch, nearer_end(branch, chord), chord).inside;
+  return joint::detail::runs_past(chord, branch, inside, 0.0);
 }
 
 /// Returns the link of two members that are joined only by a statement: the branch's end at the
@@ -112,9 +114,7 @@ Result<joint::Link> link(const FrameSpec& spec, const joint::NodeSpec& node, std
   auto chord = first ? said.member : said.with, branch = first ? said.with : said.member;
   const auto& a = spec.members[chord];
   const auto& z = spec.members[branch];
-  if (a.priority == z.priority && a.half_size() == z.half_size() && ends_between(a, z) &&
-      !ends_between(z, a))
-    std::swap(chord, branch);
+  if (ends_between(a, z) && !ends_between(z, a)) std::swap(chord, branch);
   const auto& c = spec.members[chord];
   const auto& b = spec.members[branch];
   const auto end = said.end.value_or(nearer_end(b, c));

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "core/joint/node/shape.hpp"
 
@@ -19,6 +21,28 @@ bool between_ends(const Member& m, const Vector3d& point) {
   const Vector3d along = m.finish - m.start;
   const double share = (point - m.start).dot(along) / along.squaredNorm();
   return share >= 0.0 && share <= 1.0;
+}
+
+/// Returns a way, >= 0, along unit `into` from a point to a place inside the member's endless
+/// surface, or on it; empty if there is none.
+std::optional<double> way_inside(const Member& m, const Vector3d& point, const Vector3d& into) {
+  const Vector3d axis = (m.finish - m.start).normalized(), from = point - m.start;
+  const double cosine = into.dot(axis);
+  const double nearest =
+      (from.dot(axis) * cosine - from.dot(into)) / (1.0 - cosine * cosine);  // to the axis
+  const auto off = [&](double way) { return distance_from(m, point + way * into); };
+  for (const double way : {0.0, nearest})
+    if (way >= 0.0 && off(way) <= kStillInside) return way;
+  const Vector3d foot = from + nearest * into;
+  if (!m.section || !((foot - foot.dot(axis) * axis).norm() < m.reach())) return std::nullopt;
+  // A line across a corner of the section; the distance from a convex body is convex along it.
+  const double half = m.reach() / std::sqrt(1.0 - cosine * cosine);
+  double low = std::max(0.0, nearest - half), high = std::max(0.0, nearest + half);
+  for (int i = 0; i < kBisections; ++i) {
+    const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+    (off(a) < off(b) ? high : low) = off(a) < off(b) ? b : a;
+  }
+  return off(low) <= kStillInside ? std::optional(low) : std::nullopt;
 }
 
 }  // namespace
@@ -44,10 +68,12 @@ double CutAway::length(const Vector3d& point) const {
     const auto within = [&, &by = by, &into = into](double way) {
       return distance_from(by, point + way * into) <= kStillInside;
     };
-    if (!between_ends(by, point) || !within(0.0)) continue;
-    double low = 0.0, high = kFirstStep;
+    const auto first = way_inside(by, point, into);
+    if (!first || !between_ends(by, point + *first * into)) continue;
+    double step = kFirstStep;
     const double most = 100.0 * by.reach();
-    while (high < most && within(high)) low = high, high *= 2.0;
+    while (step < most && within(*first + step)) step *= 2.0;
+    double low = *first, high = *first + step;
     for (int i = 0; i < kBisections; ++i) {
       const double middle = 0.5 * (low + high);
       (within(middle) ? low : high) = middle;

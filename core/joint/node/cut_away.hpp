@@ -16,7 +16,8 @@ class CutAway {
 
   [[nodiscard]] bool empty() const { return cuts_.empty(); }
   /// Returns the length along the member, mm, from a point of its extended surface to its metal; 0
-  /// if it is not cut away there.
+  /// if it is not cut away there. Where a member cuts it, its metal begins behind that one, so the
+  /// point may lie in that one or in front of it.
   /// Accuracy  1e-6 mm; a point up to 0.02 mm off a cutting member counts as touching it.
   [[nodiscard]] double length(const Eigen::Vector3d& point) const;
 

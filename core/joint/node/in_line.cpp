@@ -7,7 +7,9 @@
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
+#include "core/joint/node/corner_mitre.hpp"
 #include "core/joint/node/node_parts.hpp"
+#include "core/joint/node/shape.hpp"
 
 namespace tubecut::joint {
 
@@ -153,15 +155,18 @@ std::size_t nearer_end(const NodeSpec& spec, const Touch& touch) {
                                     : End::finish);
 }
 
-/// Returns pairs of alike members of which the first continues where the second ends.
+/// Returns pairs of members of which the first continues where the second ends, and the second does
+/// not continue there too.
 std::set<Applied::Pair> going_on(const NodeSpec& spec, const Joined& joined, const Lines& lines,
                                  double within) {
   std::set<Applied::Pair> out;
   for (const auto& touches : joined)
     for (const auto& touch : touches) {
       const auto b = touch.end / 2, a = touch.other;
-      if (!alike(spec.members[a], spec.members[b]) || lines.line[a] == lines.line[b]) continue;
-      const bool passes = touch.near.inside > within + spec.members[a].reach();
+      const auto& chord = spec.members[a];
+      const auto& branch = spec.members[b];
+      if (!may_cut(chord, branch) || lines.line[a] == lines.line[b]) continue;
+      const bool passes = runs_past(chord, branch, touch.near.inside, within);
       const bool continues = lines.mates[nearer_end(spec, touch)] && !lines.mates[touch.end];
       if (passes || continues) out.insert({a, b});
     }
@@ -177,12 +182,20 @@ std::set<Applied::Pair> going_on(const NodeSpec& spec, const Joined& joined, con
 
 }  // namespace
 
+bool may_cut(const Member& chord, const Member& branch) {
+  return chord.priority == branch.priority &&
+         (chord.half_size() >= branch.half_size() || covers(chord, branch));
+}
+
+bool runs_past(const Member& chord, const Member& branch, double inside, double within) {
+  return may_cut(chord, branch) && (goes_on(chord, branch, inside) ||
+                                    (alike(chord, branch) && inside > within + chord.reach()));
+}
+
 bool Lines::goes_before(const NodeSpec& spec, std::size_t a, std::size_t b) const {
-  if (alike(spec.members[a], spec.members[b])) {
-    if (first.contains({a, b})) return true;
-    if (first.contains({b, a})) return false;
-    if (rank[a] != rank[b]) return rank[a] < rank[b];
-  }
+  if (first.contains({a, b})) return true;
+  if (first.contains({b, a})) return false;
+  if (alike(spec.members[a], spec.members[b]) && rank[a] != rank[b]) return rank[a] < rank[b];
   return detail::goes_before(spec, a, b);
 }
 
@@ -199,6 +212,7 @@ Lines lines_of(const NodeSpec& spec, const Joined& joined) {
   const auto* within = std::get_if<Within>(&spec.connect);
   out.first = going_on(spec, joined, out, within ? within->distance : 0.0);
   if (within == nullptr) return out;
+  out.first.merge(posts_on_corners(spec, joined, out));
   out.rank = earliest(out.mates, [&](std::size_t a, std::size_t b) {
     return alike(spec.members[a], spec.members[b]);
   });

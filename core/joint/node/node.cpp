@@ -10,6 +10,7 @@
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/joint/nearness.hpp"
+#include "core/joint/node/corner_mitre.hpp"
 #include "core/joint/node/in_line.hpp"
 #include "core/joint/node/node_parts.hpp"
 #include "core/joint/node/shape.hpp"
@@ -21,8 +22,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kEquallyNear = 1e-6;  // mm: two chords at the same distance
-constexpr double kStep = 0.01;         // mm between two mitred edges: negligible
-constexpr double kFoundStep = 0.5;     // for found members in line, because coordinates are rounded
 
 using detail::Applied;
 using detail::called;
@@ -99,6 +98,7 @@ struct Around {
   const Lines& lines;
   const Joined& all;
   const std::vector<Touch>& joined;  // of this end
+  const std::vector<detail::SharedCorner>& corners;
   const std::optional<Touch>& missed;
 };
 
@@ -111,16 +111,14 @@ std::string parallel_to(const NodeSpec& spec, std::size_t member, std::size_t ot
 }
 
 /// Two ends that share a chord's corner end flat on its faces, and neither cuts the other.
-void part_at_corners(const NodeSpec& spec, std::size_t index, const Around& around,
+void part_at_corners(const std::vector<detail::SharedCorner>& shared,
                      std::vector<Cutting>& cutters) {
   std::vector<std::size_t> parted;
   for (auto& cutting : cutters)
-    for (const auto& touch : around.joined)
-      if (cutting.mitre == nullptr && touch.other != cutting.touch.other &&
-          detail::shares_corner({spec, around.applied, around.lines, around.all}, index,
-                                touch.other, cutting.touch.other)) {
+    for (const auto& [chord, other] : shared)
+      if (cutting.mitre == nullptr && cutting.touch.other == chord) {
         cutting.flat = true;
-        parted.push_back(touch.other);
+        parted.push_back(other);
       }
   std::erase_if(cutters, [&](const Cutting& c) {
     return c.mitre == nullptr && std::ranges::count(parted, c.touch.other) > 0;
@@ -156,7 +154,13 @@ std::vector<Cutting> cutters_of(const NodeSpec& spec, std::size_t index, const A
   std::ranges::sort(out, [&](const Cutting& a, const Cutting& b) {
     return lines.listed_before(spec, a.touch.other, b.touch.other);
   });
-  part_at_corners(spec, index, around, out);
+  part_at_corners(around.corners, out);
+  for (auto& one : out)
+    for (auto& other : out)
+      if (one.mitre == nullptr && other.mitre == nullptr &&
+          detail::flush_at_mitre({spec, around.applied, around.lines, around.all}, index,
+                                 {one.touch.other, other.touch.other}))
+        one.flat = other.flat = true;
   return out;
 }
 
@@ -207,80 +211,6 @@ Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& ap
     out.push_back(std::move(cut));
   }
   return out;
-}
-
-/// Returns the largest distance between the outer edges of two mitred ends. Both are ellipses in
-/// one plane, their centres the axes' distance from each other, half as wide as their tubes and
-/// longer as these lean.
-double mitre_step(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut) {
-  if (!cut.plane) return 0.0;
-  const auto& own = spec.members[end.member];
-  const auto& other = spec.members[cut.member];
-  if (own.section || other.section) {
-    const Eigen::Matrix3d out = end.frame.rows.transpose();
-    return detail::edge_step(own, other, end.frame.origin + out * cut.plane->point,
-                             out * cut.plane->normal.normalized());
-  }
-  const double r = spec.members[end.member].outer_radius, s = other.outer_radius;
-  const Vector3d normal = cut.plane->normal.normalized();
-  const Vector3d along = end.frame.rows * (other.finish - other.start).normalized();
-  return std::max(std::abs(r / normal.z() - s / std::abs(normal.dot(along))), std::abs(r - s)) +
-         cut.eccentricity;
-}
-
-std::string ghost(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut,
-                  const Joined& joined) {
-  const auto other = called(spec, cut.member);
-  const auto far = brief(cut.missing) + " mm";
-  if (cut.instead)
-    return "cut by " + other + " beyond that member's end, where " + called(spec, *cut.instead) +
-           ", which continues it, lies up to " + far + " lower";
-  const auto beyond = "cut by " + other + " up to " + far + " beyond that member's end";
-  const auto ends_here = [&](std::size_t at) {
-    return std::ranges::count(joined[at], end.member, &Touch::other) > 0;
-  };
-  if (!ends_here(2 * cut.member) && !ends_here(2 * cut.member + 1)) return beyond;
-  return beyond + "; both end here, so state a mitre of the two, or lengthen " + other + " by " +
-         far;
-}
-
-void warn(const NodeSpec& spec, const MemberEnd& end, const Around& around,
-          std::vector<Warning>& out) {
-  const auto at = place_of(end.member, end.end);
-  const auto least = [&](const CutBy& cut) {
-    return around.applied.found.contains(std::minmax(end.member, cut.member)) ? kFoundStep : kStep;
-  };
-  if (const auto& missed = around.missed) {
-    const auto& other = spec.members[missed->other];
-    const double off = missed->near.inside > 0.0
-                           ? detail::distance_from(other, spec.members[end.member].at(end.end))
-                           : missed->near.distance - other.reach();
-    out.push_back({.code = WarningCode::free_end,
-                   .member = at,
-                   .detail = called(spec, end.member) + " meets no member here, and misses " +
-                             called(spec, missed->other) + " by " + brief(off) + " mm"});
-  }
-  for (const auto& cut : end.cut_by)
-    if (cut.ghost)
-      out.push_back({.code = WarningCode::ghost_contact,
-                     .member = at,
-                     .detail = ghost(spec, end, cut, around.all)});
-  for (const auto& cut : end.cut_by)
-    if (const auto& chord = spec.members[cut.member];
-        cut.box && cut.box->corner != chord.section->corner)
-      out.push_back({.code = WarningCode::corner_shared,
-                     .member = at,
-                     .detail = "flat on the face of " + called(spec, cut.member) +
-                               ", whose corner of radius " + brief(chord.section->corner) +
-                               " mm it shares with another end"});
-  for (const auto& cut : end.cut_by)
-    if (const double step = mitre_step(spec, end, cut); step > least(cut))
-      out.push_back({.code = WarningCode::mitre_steps,
-                     .member = at,
-                     .detail = "its edge and that of " + called(spec, cut.member) + " are up to " +
-                               brief(step) + " mm apart"});
-  if (end.open) out.push_back({.code = WarningCode::end_open, .member = at});
-  if (end.consumed) out.push_back({.code = WarningCode::end_consumed, .member = at});
 }
 
 Result<MemberEnd> place_end(const NodeSpec& spec, std::size_t index, const Around& around,
@@ -354,9 +284,22 @@ Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Aroun
             {.code = WarningCode::near_parallel,
              .member = place_of(out.member, out.end),
              .detail = called(spec, one.touch.other) + " is within 5 deg of parallel"});
-    warn(spec, out, around, warnings);
+    detail::warn({spec, around.applied, around.lines, around.all}, out, around.missed, warnings);
     return out;
   }
+}
+
+Result<Nodes> solve_ends(const detail::Joints& all, const detail::Missed& missed) {
+  Nodes out;
+  const auto corners = detail::shared_corners(all);
+  out.ends.reserve(missed.size());
+  for (std::size_t i = 0; i < missed.size(); ++i) {
+    if (stopped()) return fail({.code = ErrorCode::cancelled});
+    const Around around{all.applied, all.lines, all.joined, all.joined[i], corners[i], missed[i]};
+    TRY(auto end, solve_end(all.spec, i, around, out.warnings));
+    out.ends.push_back(std::move(end));
+  }
+  return out;
 }
 
 }  // namespace
@@ -367,15 +310,15 @@ Result<Nodes> solve(const NodeSpec& spec) {
   const auto lines = detail::lines_of(spec, joined);
   TRY(auto applied, detail::apply_joints(spec, lines, joined));
   detail::join_lines(spec, lines, joined, applied);
-  Nodes out;
-  out.ends.reserve(joined.size());
-  for (std::size_t i = 0; i < joined.size(); ++i) {
-    if (stopped()) return fail({.code = ErrorCode::cancelled});
-    const Around around{applied, lines, joined, joined[i], near[i]};
-    TRY(auto end, solve_end(spec, i, around, out.warnings));
-    out.ends.push_back(std::move(end));
+  const detail::Joints all{spec, applied, lines, joined};
+  TRY(auto out, solve_ends(all, near));
+  for (;;) {
+    const auto corners = detail::corner_mitres(all, out.ends);
+    if (corners.empty()) return out;
+    for (const auto& [p, q] : corners) detail::mitre_ends(spec, p, q, joined, applied);
+    TRY(auto again, solve_ends(all, near));
+    out = std::move(again);
   }
-  return out;
 }
 
 }  // namespace tubecut::joint

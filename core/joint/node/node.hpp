@@ -47,8 +47,9 @@ struct Link {
 
 /// Members that meet at one or more nodes. Of two that join, the one that cuts the other has:
 ///   1. the lower priority number;
-///   2. if equal, the larger diameter, or larger side of a section;
-///   3. if equal and joined by `Within`, the axis that continues where the other member ends;
+///   2. if equal, the axis that continues where the other member ends, if both are of one size (by
+///      `Within`), or the other, although larger, is not the wider across both axes;
+///   3. the larger diameter, or larger side of a section;
 ///   4. else the earlier place in `members`; for members in line, that of the earliest of the line.
 /// If no joint of two is stated, they are set on without a gap; if they are in line (in_line.hpp)
 /// and nothing between them cuts both on all sides, they are mitred.

@@ -4,6 +4,7 @@
 #include "core/base/elementary.hpp"
 #include "core/joint/node/cut_away.hpp"
 #include "core/joint/node/node_parts.hpp"
+#include "core/joint/node/shared_corner.hpp"
 #include "core/joint/section/section_contour.hpp"
 #include "core/joint/section/section_place.hpp"
 
@@ -46,19 +47,10 @@ bool beyond(const Member& m, const CutBy& cut, double w) {
   return along(cut, w) < -slack || along(cut, w) > length + slack;
 }
 
-/// Returns the distance of a mitred end's long point beyond its work point.
-double overhang(const NodeSpec& spec, const Applied& applied, std::size_t end) {
-  const auto& m = spec.members[end / 2];
-  const Vector3d axis = m.into(end_of(end)).normalized();
-  double out = 0.0;
-  for (auto it = applied.mitres.lower_bound({end, 0});
-       it != applied.mitres.end() && it->first.first == end; ++it) {
-    const double cosine = std::abs(it->second.normal.dot(axis));
-    const double sine = it->second.normal.cross(axis).norm();
-    worsen(out,
-           m.section ? support(m, it->second.normal) / cosine : m.outer_radius * sine / cosine);
-  }
-  return out;
+/// Returns true if an end is mitred with a member that does not continue its line.
+bool mitred(const Lines& lines, const Applied::Pair& one) {
+  const auto& mate = lines.mates[one.first];
+  return !mate || mate->end / 2 != one.second;
 }
 
 /// The inspection of one end.
@@ -70,12 +62,20 @@ class EndInspection {
         applied_(joints.applied),
         end_(end),
         seen_(end.cut_by.size()) {
-    for (const auto& cut : end.cut_by) cut_away_.emplace_back(joints, end.member, cut.member);
+    for (const auto& cut : end.cut_by) {
+      cut_away_.emplace_back(joints, end.member, cut.member);
+      auto& planes = planes_.emplace_back();
+      for (const auto at : {2 * cut.member, 2 * cut.member + 1})
+        for (auto it = applied_.mitres.lower_bound({at, 0});
+             it != applied_.mitres.end() && it->first.first == at; ++it)
+          if (mitred(lines_, it->first)) planes.push_back(&*it);
+    }
   }
 
   /// Returns true if a partner ends before its work point, so that contacts may lie beyond it.
   [[nodiscard]] bool any_cut_away() const {
-    return !std::ranges::all_of(cut_away_, &CutAway::empty);
+    return !std::ranges::all_of(cut_away_, &CutAway::empty) ||
+           !std::ranges::all_of(planes_, &Planes::empty);
   }
 
   /// Finds ghosts and the highest z on the generators of one surface.
@@ -108,7 +108,7 @@ class EndInspection {
   void see_hidden(std::span<const PreparedCutter> cutters, const Generator& line,
                   const Contact& top) {
     for (std::size_t i = 0; i < cutters.size(); ++i) {
-      if (i == top.cutter || cut_away_[i].empty()) continue;
+      if (i == top.cutter || (cut_away_[i].empty() && planes_[i].empty())) continue;
       const auto at = hit(cutters[i], line);
       if (!at || at->z < top.z - kFlushFaces) continue;
       const auto off = missing(i, line, *at);
@@ -133,15 +133,39 @@ class EndInspection {
     const auto& cut = end_.cut_by[cutter];
     const auto& m = spec_.members[cut.member];
     const bool is_beyond = beyond(m, cut, at.axial);
-    if (!is_beyond && cut_away_[cutter].empty()) return {};
+    if (!is_beyond && cut_away_[cutter].empty() && planes_[cutter].empty()) return {};
     const Vector3d place = end_.frame.origin +
                            end_.frame.rows.transpose() * Vector3d(line.radius * line.cos_phi,
                                                                   line.radius * line.sin_phi, at.z);
     if (const double off = cut_away_[cutter].length(place); off > kCutAway) return {.by = off};
-    if (!is_beyond) return {};
     const auto end = end_index(cut.member, along(cut, at.axial) < 0.0 ? End::start : End::finish);
-    auto out = short_of(spec_, lines_, end, place);
-    if (!out.instead && !lines_.mates[end]) out.by -= overhang(spec_, applied_, end);
+    const bool has_planes = std::ranges::any_of(
+        planes_[cutter], [&](const auto* plane) { return plane->first.first == end; });
+    if (const double off = beyond_planes(cutter, place); off > kCutAway || has_planes)
+      return {.by = off > kCutAway ? off : 0.0};
+    if (!is_beyond) return {};
+    return short_of(spec_, lines_, end, place);
+  }
+  /// Returns the other member of a plane, with sharp corners if the partner cuts by its faces.
+  [[nodiscard]] Member surface_of(std::size_t cutter, std::size_t other) const {
+    auto out = spec_.members[other];
+    if (const auto& box = end_.cut_by[cutter].box;
+        box && out.section && box->corner == kSharpCorner)
+      out.section->corner = kSharpCorner;
+    return out;
+  }
+  /// Returns how far a point of a partner's extended surface lies beyond the planes at which its
+  /// ends are mitred, along it; 0 where the other member of that plane goes on flush.
+  [[nodiscard]] double beyond_planes(std::size_t cutter, const Vector3d& point) const {
+    double out = 0.0;
+    for (const auto* plane : planes_[cutter]) {
+      const auto& [end, other] = plane->first;
+      const auto& m = spec_.members[end / 2];
+      const Vector3d from = m.at(end_of(end)) + plane->second.point;
+      const double off = (from - point).dot(plane->second.normal) /
+                         plane->second.normal.dot(m.into(end_of(end)).normalized());
+      if (off > out && distance_from(surface_of(cutter, other), point) > kFlushFaces) out = off;
+    }
     return out;
   }
 
@@ -155,6 +179,8 @@ class EndInspection {
   MemberEnd& end_;
   std::vector<Presence> seen_;
   std::vector<CutAway> cut_away_ = {};  // of each partner
+  using Planes = std::vector<const std::pair<const Applied::Pair, Mitre>*>;
+  std::vector<Planes> planes_ = {};  // likewise, at both its ends
 };
 
 /// The generators of one surface for the scan.
@@ -236,7 +262,8 @@ std::vector<Presence> inspect(const Joints& joints, MemberEnd& end) {
     if (nothing && !inspection.any_cut_away())
       inspection.all_there();
     else
-      inspection.scan(cutters, surface.outline ? lines_on(*surface.outline) : lines_on(rho),
+      // Of a face flush with that of a partner, rounding decides which partner it meets.
+      inspection.scan(cutters, surface.smaller ? lines_on(*surface.smaller) : lines_on(rho),
                       length);
   }
   return inspection.take();

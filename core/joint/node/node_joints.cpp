@@ -227,7 +227,8 @@ Result<void> apply(const NodeSpec& spec, const Lines& lines, std::size_t index, 
     return {};
   }
   if (joint.kind == JointKind::mitre) {
-    if (!joins(joined, a, b) && !joins(joined, b, a))
+    const bool found = index + spec.found >= spec.joints.size();
+    if (!found && !joins(joined, a, b) && !joins(joined, b, a))
       return apart(spec, index, "no end of either joins the other");
     return mitre(spec, index, joined, out);
   }
@@ -295,15 +296,20 @@ void part_passing(const NodeSpec& spec, Joined& joined) {
   }
 }
 
+void mitre_ends(const NodeSpec& spec, std::size_t p, std::size_t q, Joined& joined, Applied& out) {
+  const Applied::Pair pair = std::minmax(p / 2, q / 2);
+  if (!out.joints.emplace(pair, Joint{.kind = JointKind::mitre}).second) return;
+  out.found.insert(pair);
+  face(spec, p, q, into(spec, p) - into(spec, q), joined, out);
+}
+
 void join_lines(const NodeSpec& spec, const Lines& lines, Joined& joined, Applied& out) {
   for (std::size_t p = 0; p < lines.mates.size(); ++p) {
     if (!lines.mates[p] || lines.mates[p]->end < p) continue;
     const auto q = lines.mates[p]->end;
-    const Applied::Pair pair{std::min(p / 2, q / 2), std::max(p / 2, q / 2)};
-    if (out.joints.contains(pair) || separated(spec, joined, lines, p, q)) continue;
-    out.joints.emplace(pair, Joint{.kind = JointKind::mitre});
-    out.found.insert(pair);
-    face(spec, p, q, into(spec, p) - into(spec, q), joined, out);
+    if (out.joints.contains(std::minmax(p / 2, q / 2)) || separated(spec, joined, lines, p, q))
+      continue;
+    mitre_ends(spec, p, q, joined, out);
   }
 }
 

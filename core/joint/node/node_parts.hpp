@@ -53,6 +53,14 @@ struct Applied {
   std::set<Pair> found;          // found joints, which are not stated
 };
 
+/// Returns true if a chord that continues where the branch ends cuts it: it has the same priority,
+/// and is at least as large, or covers the branch.
+[[nodiscard]] bool may_cut(const Member& chord, const Member& branch);
+/// Returns true if it does, and continues: its nearer end lies `inside` mm beyond the branch's
+/// axis. `within`: the joining distance, mm.
+[[nodiscard]] bool runs_past(const Member& chord, const Member& branch, double inside,
+                             double within);
+
 /// The end that continues another, and the angle out of line; rad.
 struct Mate {
   std::size_t end = 0;
@@ -63,11 +71,11 @@ struct Lines {
   std::vector<std::optional<Mate>> mates;  // of each end; symmetric
   std::vector<std::size_t> line;           // of each member: the earliest of its line
   std::vector<std::size_t> rank;           // among the alike members of its line
-  std::set<Applied::Pair> first;  // of alike members: the first continues where the second ends
+  std::set<Applied::Pair> first;           // the first continues where the second ends, and cuts it
 
   /// Returns true if `a` cuts `b` where they join. Two members never cut each other, because the
-  /// order is by priority, diameter, which continues where the other ends, and the position of the
-  /// earliest of each line.
+  /// order is by priority, which continues where the other ends and is as wide, diameter, and the
+  /// position of the earliest of each line.
   [[nodiscard]] bool goes_before(const NodeSpec& spec, std::size_t a, std::size_t b) const;
   /// The same without the rule for continuing members: a total order.
   [[nodiscard]] bool listed_before(const NodeSpec& spec, std::size_t a, std::size_t b) const;
@@ -104,6 +112,9 @@ void part_passing(const NodeSpec& spec, Joined& joined);
 /// Mitres the ends in line without a stated joint and without anything between them.
 void join_lines(const NodeSpec& spec, const Lines& lines, Joined& joined, Applied& out);
 
+/// Mitres two ends of two members without a joint, which join nowhere else.
+void mitre_ends(const NodeSpec& spec, std::size_t p, std::size_t q, Joined& joined, Applied& out);
+
 /// Returns true if the joint of two members is set on, stated or not.
 [[nodiscard]] bool is_set_on(const Applied& applied, std::size_t member, std::size_t other);
 
@@ -137,5 +148,9 @@ struct Presence {
 /// Sets open, consumed and the ghosts of one end, and returns a Presence for each cutter. The scan
 /// is skipped if bounds already show that there is nothing to find, and all cutters are present.
 std::vector<Presence> inspect(const Joints& joints, MemberEnd& end);
+
+/// Adds the warnings about one end. `missed`: the member that it probably should have met.
+void warn(const Joints& joints, const MemberEnd& end, const std::optional<Touch>& missed,
+          std::vector<Warning>& out);
 
 }  // namespace tubecut::joint::detail

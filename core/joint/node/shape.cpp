@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/elementary.hpp"
+#include "core/joint/contour.hpp"
 
 namespace tubecut::joint::detail {
 namespace {
@@ -53,13 +54,20 @@ std::vector<Vector3d> outline(const Member& m) {
   return out;
 }
 
-double edge_off(const Member& of, const Member& from, const Vector3d& point,
-                const Vector3d& normal) {
+/// Returns the places of the edge along which a plane through `point` cuts the surface.
+std::vector<Vector3d> edge(const Member& of, const Vector3d& point, const Vector3d& normal) {
   const Vector3d axis = axis_of(of);
   const double rise = axis.dot(normal);
+  auto out = outline(of);
+  for (auto& p : out) p += (point - p).dot(normal) / rise * axis;
+  return out;
+}
+
+double edge_off(const Member& of, const Member& from, const Vector3d& point,
+                const Vector3d& normal) {
   double worst = 0.0;
-  for (const auto& p : outline(of)) {
-    const auto away = off(from, p + (point - p).dot(normal) / rise * axis);
+  for (const auto& p : edge(of, point, normal)) {
+    const auto away = off(from, p);
     const double across = away.normal.cross(normal).norm();
     worst = std::max(worst, std::abs(away.distance) / across);
   }
@@ -123,6 +131,36 @@ bool is_square_to(const Member& member, const Vector3d& direction) {
   if (!member.section) return true;
   const Vector3d x = height_of(member), d = direction.normalized();
   return x.cross(d).norm() <= kSameTurn || std::abs(x.dot(d)) <= kSameTurn;
+}
+
+bool covers(const Member& chord, const Member& branch) {
+  const Vector3d across = axis_of(branch).cross(axis_of(chord));
+  const double sine = across.norm();
+  if (!(sine > 2.0 * kParallel)) return false;
+  const Vector3d n = across / sine;
+  const double apart = std::abs((branch.start - chord.start).dot(n));
+  return apart + support(branch, n) <= support(chord, n) + kSlightOverhang;
+}
+
+bool goes_on(const Member& chord, const Member& branch, double inside) {
+  constexpr double kFarSide = 0.5;  // mm: an end that is drawn flush with the branch goes on
+  const Vector3d u = axis_of(branch), across = u.cross(axis_of(chord));
+  const double sine = across.norm();
+  if (!(sine > 2.0 * kParallel)) return false;
+  const double far = support(branch, u.cross(across / sine)) / sine;
+  return inside >= far - kFarSide;
+}
+
+double edge_outside(const Member& member, const Vector3d& point, const Vector3d& normal,
+                    const Vector3d& towards, const std::vector<const Member*>& others) {
+  double worst = -1e300;
+  for (const auto& p : edge(member, point, normal)) {
+    if (!((p - point).dot(towards) > 0.0)) continue;
+    double least = 1e300;
+    for (const auto* other : others) least = std::min(least, distance_from(*other, p));
+    worst = std::max(worst, least);
+  }
+  return worst;
 }
 
 double edge_step(const Member& a, const Member& b, const Vector3d& point, const Vector3d& normal) {

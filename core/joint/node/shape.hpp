@@ -44,11 +44,24 @@ inline constexpr double kSameTurn = 1e-3;
 /// that the surface is square to it where it reaches furthest; always of a round tube.
 [[nodiscard]] bool is_square_to(const Member& member, const Eigen::Vector3d& direction);
 
+/// Returns true if a branch lies within the chord's width across both axes, up to kSlightOverhang,
+/// so that the chord's wall stops all of it. Parallel members never do.
+[[nodiscard]] bool covers(const Member& chord, const Member& branch);
+/// Returns true if a chord whose nearer end lies `inside` mm beyond the axis of a branch that ends
+/// on it goes on at least to the branch's far side.
+[[nodiscard]] bool goes_on(const Member& chord, const Member& branch, double inside);
+
 /// Returns the largest distance between the edges along which a plane cuts two surfaces, of which
 /// one at least is a section, in that plane. `normal` is unit.
 /// Accuracy  from 128 places of each edge, by the distance from the other surface: of first order
 ///           where an edge lies opposite a corner.
 [[nodiscard]] double edge_step(const Member& a, const Member& b, const Eigen::Vector3d& point,
                                const Eigen::Vector3d& normal);
+/// Returns how far the edge along which a plane through `point` cuts the surface lies outside of
+/// all these members on the side of `towards`; mm, negative if it lies inside of one everywhere.
+/// Accuracy  from 128 places of the edge.
+[[nodiscard]] double edge_outside(const Member& member, const Eigen::Vector3d& point,
+                                  const Eigen::Vector3d& normal, const Eigen::Vector3d& towards,
+                                  const std::vector<const Member*>& others);
 
 }  // namespace tubecut::joint::detail

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "core/joint/node/node_parts.hpp"
 
@@ -21,8 +23,20 @@ struct EndOf {
 /// would run into each other there, so they end flat on the faces.
 [[nodiscard]] bool share_corner(const EndOf& a, const EndOf& b, const Member& chord);
 
-/// Returns true if an end of `other`, cut by the same chord, shares its corner with end `index`.
-[[nodiscard]] bool shares_corner(const Joints& joints, std::size_t index, std::size_t other,
-                                 std::size_t chord);
+/// A chord whose corner an end shares with an end of another member.
+struct SharedCorner {
+  std::size_t chord, other;
+};
+/// The shared corners of each end.
+using SharedCorners = std::vector<std::vector<SharedCorner>>;
+/// Finds them; whether the two ends join each other does not matter.
+/// Cost  linear in the members, and in the pairs of ends at one chord.
+[[nodiscard]] SharedCorners shared_corners(const Joints& joints);
+
+/// Returns true if an end meets squarely two sections that are mitred with each other there,
+/// whose faces towards it are flush: a post on the corner of a frame. It ends flat on both, because
+/// the roundings of the two meet under it.
+[[nodiscard]] bool flush_at_mitre(const Joints& joints, std::size_t end,
+                                  const std::pair<std::size_t, std::size_t>& chords);
 
 }  // namespace tubecut::joint::detail
