@@ -261,4 +261,42 @@ std::vector<std::pair<double, double>> stretches(const Chain& chain, double at) 
   return out;
 }
 
+namespace {
+
+/// Returns the shares at which |b| may be greatest.
+std::vector<double> turning_shares(const Segment& s) {
+  std::vector<double> out{0.0, 1.0};
+  if (!s.arc()) return out;
+  for (int k = -4; k <= 4; ++k) {
+    const double share = ((k + 0.5) * kPi - s.angle) / s.sweep;
+    if (share > 0.0 && share < 1.0) out.push_back(share);
+  }
+  return out;
+}
+
+}  // namespace
+
+double reach_across(const Segment& s) {
+  double out = 0.0;
+  for (const double share : turning_shares(s)) out = std::max(out, std::abs(s.at(share).y()));
+  return out;
+}
+
+std::vector<double> shares_towards(const Segment& s, int count, double near) {
+  constexpr int kFiner = 24;  // halvings
+  std::vector<double> out;
+  for (const double at : turning_shares(s)) {
+    if (std::abs(s.at(at).y()) < near) continue;
+    out.push_back(at);
+    for (int i = 1; i <= kFiner; ++i)
+      for (const double sign : {-1.0, 1.0})
+        if (const double share = at + sign * std::ldexp(1.0, -i); share > 0.0 && share < 1.0)
+          out.push_back(share);
+  }
+  if (out.empty()) return out;
+  for (int i = 0; i <= count; ++i) out.push_back(static_cast<double>(i) / count);
+  std::ranges::sort(out);
+  return out;
+}
+
 }  // namespace tubecut::cutout

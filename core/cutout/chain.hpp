@@ -79,4 +79,11 @@ struct Bounds {
 /// Where the chain crosses the line a = `at`, as stretches within it: from b to b, ascending.
 [[nodiscard]] std::vector<std::pair<double, double>> stretches(const Chain& chain, double at);
 
+/// The greatest |b| of a segment.
+[[nodiscard]] double reach_across(const Segment& s);
+/// Returns the shares, from 0 to 1, between which a segment is integrated that reaches to |b| >=
+/// near the bore's: `count` equal pieces, and finer and finer ones towards such places, because the
+/// way round has a square root's bend beyond. Empty if it is nowhere so wide.
+[[nodiscard]] std::vector<double> shares_towards(const Segment& s, int count, double near);
+
 }  // namespace tubecut::cutout

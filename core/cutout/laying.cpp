@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kGaussPoints = 12;
 constexpr double kPlacesATurn = 40.0;
+constexpr double kNearBore = 0.95;
 constexpr double kFlat = 1e-3;  // of the radius: a step of b below which Gauss serves for a line
 
 /// T(b) of one quantity and, for lines, its integral P(b).
@@ -38,13 +39,20 @@ Integrand under(double rho) {
       }};
 }
 
-double by_gauss(const Segment& s, const Integrand& of, int places) {
+double by_gauss(const Segment& s, const Integrand& of, int places, double rho) {
   static const auto kRule = math::gauss_legendre(kGaussPoints);
+  const auto graded = shares_towards(s, places, kNearBore * rho);
+  const auto pieces = graded.empty() ? static_cast<std::size_t>(places) : graded.size() - 1;
   double sum = 0.0;
-  for (int i = 0; i < places; ++i)
+  for (std::size_t i = 0; i < pieces; ++i)
     for (std::size_t k = 0; k < kRule.nodes.size(); ++k) {
-      const double share = (i + 0.5 * (1.0 + kRule.nodes[k])) / places;
-      const double da = s.along(share).x() * s.length() * 0.5 * kRule.weights[k] / places;
+      const double along = 0.5 * (1.0 + kRule.nodes[k]);
+      const double part = graded.empty() ? 0.0 : graded[i + 1] - graded[i];
+      const double share =
+          graded.empty() ? (static_cast<double>(i) + along) / places : graded[i] + along * part;
+      const double da = graded.empty()
+                            ? s.along(share).x() * s.length() * 0.5 * kRule.weights[k] / places
+                            : s.along(share).x() * s.length() * 0.5 * kRule.weights[k] * part;
       sum += of.t(s.at(share).y()) * da;
     }
   return sum;
@@ -58,9 +66,9 @@ double around(const Chain& chain, const Integrand& of, double rho) {
     if (s.arc())
       sum += by_gauss(
           s, of,
-          std::max(1, static_cast<int>(std::ceil(kPlacesATurn * std::abs(s.sweep) / kTwoPi))));
+          std::max(1, static_cast<int>(std::ceil(kPlacesATurn * std::abs(s.sweep) / kTwoPi))), rho);
     else if (std::abs(rise) < kFlat * rho)
-      sum += by_gauss(s, of, 1);
+      sum += by_gauss(s, of, 1, rho);
     else
       sum += (s.to.x() - s.from.x()) * (of.p(s.to.y()) - of.p(s.from.y())) / rise;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/rounding.hpp"
 #include "core/cutout/rows.hpp"
 
 namespace tubecut::cutout {
@@ -22,6 +23,8 @@ void at_least(double value, double least, bool equal, const char* member, const 
                  .hint = hint});
 }
 
+constexpr double kInside = 1e-3;  // mm, between a prism's edge and the bore's width
+
 constexpr const char* kNarrow = "the beam is as wide as the kerf, and wider on the bore";
 constexpr const char* kTight =
     "the beam cannot follow a tighter corner; corners as_cut accepts what it leaves";
@@ -35,7 +38,29 @@ struct Sizes {
   [[nodiscard]] double width(double b) const { return 2.0 * least_radius(laying, kerf, b); }
   [[nodiscard]] bool prism() const { return laying.parallel(); }
 
+  /// Returns the issue of a shape that is wide enough near its middle, but reaches so near the
+  /// bore's width that a beam square to the wall is wider there than the shape.
+  [[nodiscard]] std::vector<Issue> near_bore(double reach, double narrowest) const {
+    constexpr int kHalvings = 60;
+    const bool here = laying.lay() == Lay::bored && reach < laying.inner();
+    if (!here || width(reach) < narrowest || !(width(0.0) < narrowest)) return {};
+    double low = 0.0, high = reach;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (width(middle) < narrowest ? low : high) = middle;
+    }
+    return {{.code = ErrorCode::out_of_range,
+             .member = "shape",
+             .got = 2.0 * reach,
+             .limit = rounded_down(2.0 * low),
+             .unit = "mm",
+             .hint = "across it reaches so near the bore's width that the beam, square to the "
+                     "wall, is wider there than the shape; make it less wide across, or lay it on "
+                     "the wall by wall developed"}};
+  }
+
   std::vector<Issue> operator()(const Circle& c) const {
+    if (auto out = near_bore(0.5 * c.diameter, c.diameter); !out.empty()) return out;
     std::vector<Issue> out;
     at_least(c.diameter, width(0.5 * c.diameter), !prism(), "shape/diameter", kNarrow, out);
     return out;
@@ -44,12 +69,14 @@ struct Sizes {
     std::vector<Issue> out;
     at_least(s.length, s.width, true, "shape/length", "over all, so at least the width", out);
     const auto chain = turned(slot(std::max(s.length, s.width), s.width), spec.turn);
+    if (auto near = near_bore(bounds(chain).most.y(), s.width); !near.empty()) return near;
     at_least(s.width, width(bounds(chain).most.y()), !prism(), "shape/width", kNarrow, out);
     return out;
   }
   std::vector<Issue> operator()(const Rectangle& r) const {
     std::vector<Issue> out;
     const auto box = bounds(turned(rectangle(r.along, r.round, 0.0), spec.turn));
+    if (auto near = near_bore(box.most.y(), std::min(r.along, r.round)); !near.empty()) return near;
     const double least = width(box.most.y());
     at_least(r.along, least, !prism(), "shape/along", kNarrow, out);
     at_least(r.round, least, !prism(), "shape/round", kNarrow, out);
@@ -127,11 +154,12 @@ std::vector<Issue> check_open(const Chain& chain, const Laying& laying) {
   }
   if (laying.lay() == Lay::flat) return {};  // `lay` holds it against the flat
   const double half = std::max(box.most.y(), -box.least.y());
-  if (half < laying.inner()) return {};
+  const double most = rounded_down(2.0 * laying.inner() - kInside);
+  if (2.0 * half <= most) return {};
   return {{.code = ErrorCode::open_profile,
            .member = "shape",
            .got = 2.0 * half,
-           .limit = 2.0 * laying.inner(),
+           .limit = most,
            .unit = "mm",
            .hint = "across it reaches beyond the bore; lay it on the wall by wall developed, or "
                    "make it less wide"}};

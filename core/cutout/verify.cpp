@@ -18,6 +18,7 @@ constexpr double kOnChain = 1e-9;   // mm
 constexpr double kVolume = 1e-9;    // of itself
 constexpr double kApart = 0.05;     // mm between the places of a wall that the beam is held against
 constexpr int kMostPlaces = 2'000;  // of them
+constexpr double kNearBore = 0.7;
 constexpr int kRings = 16, kGauss = 8, kPieces = 4;
 
 /// A point of the tube about its anchor: on a flat, x is the depth below the outside.
@@ -107,6 +108,7 @@ double gouge(const Mould& mould, double kerf) {
       for (const auto& p : places) {
         const Vector3d off = p - from;
         const double along = off.dot(way);
+        if (along < -mould.laying.inner()) continue;  // the edge on the opposite side of the tube
         nearest = std::min(nearest, off.squaredNorm() - along * along);
       }
       worsen(worst, 0.5 * kerf - std::sqrt(std::max(0.0, nearest)));
@@ -132,23 +134,38 @@ double around_flat(const Chain& chain, const math::GaussRule& rule) {
 
 double volume_by_rings(const Mould& mould) {
   static const auto kAcross = math::gauss_legendre(kRings), kAlong = math::gauss_legendre(kGauss);
-  const double inner = mould.laying.inner(), wall = mould.laying.outer() - inner;
+  const double inner = mould.laying.inner(), outer = mould.laying.outer();
   if (mould.laying.lay() == Lay::flat)
     return around_flat(mould.chain, kAlong) * mould.laying.wall();
+  std::vector<std::vector<double>> pieces;
+  double most = 0.0;
+  for (const auto& s : mould.chain) {
+    const int count = kPieces * (1 + static_cast<int>(12.0 * std::abs(s.sweep) / kTwoPi));
+    auto& shares = pieces.emplace_back(shares_towards(s, count, kNearBore * inner));
+    if (shares.empty())
+      for (int i = 0; i <= count; ++i) shares.push_back(static_cast<double>(i) / count);
+    most = std::max(most, reach_across(s));
+  }
+  // The way round has a square root's bend where a radius equals |b|, so the rings are counted by
+  // the square of the distance from there.
+  const double bend = std::min(most, inner);
+  const double least = std::sqrt(inner - bend), span = std::sqrt(outer - bend) - least;
   double sum = 0.0;
   for (std::size_t k = 0; k < kAcross.nodes.size(); ++k) {
-    const double v = 0.5 * (1.0 + kAcross.nodes[k]), rho = inner + v * v * wall;
+    const double v = least + 0.5 * (1.0 + kAcross.nodes[k]) * span, rho = bend + v * v;
     double ring = 0.0;
-    for (const auto& s : mould.chain) {
-      const int pieces = kPieces * (1 + static_cast<int>(12.0 * std::abs(s.sweep) / kTwoPi));
-      for (int piece = 0; piece < pieces; ++piece)
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const auto& s = mould.chain[i];
+      for (std::size_t piece = 0; piece + 1 < pieces[i].size(); ++piece) {
+        const double from = pieces[i][piece], part = pieces[i][piece + 1] - from;
         for (std::size_t g = 0; g < kAlong.nodes.size(); ++g) {
-          const double share = (piece + 0.5 * (1.0 + kAlong.nodes[g])) / pieces;
-          ring += 0.5 * kAlong.weights[g] / pieces * s.length() * s.along(share).x() *
+          const double share = from + 0.5 * (1.0 + kAlong.nodes[g]) * part;
+          ring += 0.5 * kAlong.weights[g] * part * s.length() * s.along(share).x() *
                   mould.laying.turn(s.at(share).y(), rho);
         }
+      }
     }
-    sum += kAcross.weights[k] * v * wall * rho * std::abs(ring);
+    sum += kAcross.weights[k] * v * span * rho * std::abs(ring);
   }
   return sum;
 }

@@ -122,8 +122,10 @@ class CutoutSearch {
 
   void on(const DevelopedWall& wall, const PartWall& ends) {
     between(wall);
-    to_end(wall, end_line(ends.start, wall, false));
-    to_end(wall, end_line(ends.finish, wall, true));
+    const auto start = end_line(ends.start, wall, false),
+               finish = end_line(ends.finish, wall, true);
+    to_end(wall, start, finish);
+    to_end(wall, finish, start);
     to_seam(wall);
   }
   Result<CutoutReport> finished() {
@@ -142,6 +144,7 @@ class CutoutSearch {
     std::size_t instance = 0;
     double by = 0.0;  // mm
     bool finish = false;
+    double room = 0.0;  // to the opposite end's cut, mm
   };
   struct Pair {
     std::size_t instance = 0;
@@ -224,13 +227,13 @@ class CutoutSearch {
     if (!fresh && one.index < at->second.instance) at->second = {one.index, other};
   }
 
-  void to_end(const DevelopedWall& wall, const EndLine& end) {
+  void to_end(const DevelopedWall& wall, const EndLine& end, const EndLine& opposite) {
     for (const auto& one : wall.openings) {
       if (one.hole) continue;
       const double free = end.finish ? end.lowest - one.z_to : one.z_from - end.highest;
       const double best = out_.to_end ? out_.to_end->width : kFar;
       if (free > best) continue;
-      if (free <= 0.0 && note_beyond(wall, one, end)) continue;
+      if (free <= 0.0 && note_beyond(wall, one, end, opposite)) continue;
       WallWay way;
       wall.lines[one.line].shorten(end.line, -one.at, way);
       way.from += one.at;
@@ -242,19 +245,27 @@ class CutoutSearch {
     }
   }
 
-  bool note_beyond(const DevelopedWall& wall, const Opening& one, const EndLine& end) {
+  /// Returns how far an opening lies beyond an end's cut, mm; negative if it lies before it.
+  static double beyond(const DevelopedWall& wall, const Opening& one, const EndLine& end) {
     double by = -kFar;
     for (const WallPoint& point : wall.lines[one.line].points()) {
       const WallPoint p = point + one.at;
       const auto there = end.edge.at(p.x() / wall.radius);
       by = std::max(by, end.finish ? p.y() - there.low : there.high - p.y());
     }
+    return by;
+  }
+
+  bool note_beyond(const DevelopedWall& wall, const Opening& one, const EndLine& end,
+                   const EndLine& opposite) {
+    const double by = beyond(wall, one, end);
     if (by < 0.0) return false;
     const auto asked = instance(one.index).asked;
-    const auto [at, fresh] = off_.try_emplace(asked, Beyond{one.index, by, end.finish});
+    const Beyond here{one.index, by, end.finish, -beyond(wall, one, opposite)};
+    const auto [at, fresh] = off_.try_emplace(asked, here);
     if (!fresh && (one.index < at->second.instance ||
                    (one.index == at->second.instance && by > at->second.by)))
-      at->second = {one.index, by, end.finish};
+      at->second = here;
     return true;
   }
 
@@ -279,6 +290,13 @@ class CutoutSearch {
                       (beyond.by < kFine ? std::string(" touches")
                                          : " reaches " + brief(beyond.by) + " mm beyond") +
                       " the cut at the " + end};
+    if (beyond.by + 2.0 * kFine > beyond.room) {
+      out.member += "/shape";
+      out.hint += ", and " +
+                  (beyond.room > 0.0 ? "lies " + brief(beyond.room) + " mm before" : "beyond") +
+                  " that at the other end: it does not fit between them";
+      return out;
+    }
     if (cutout::count_of(spec.pattern) > 1) {
       if (beyond.finish && spec.at.from == cutout::Anchor::From::finish)
         out.hint += "; a pitch counts towards the finish, so from there it is negative";

@@ -225,6 +225,39 @@ TEST(Cutouts, RefusalsNameTheCause) {
   EXPECT_EQ(text(none.body, "errors/0/pointer"), "/cutouts/0/pattern/pitch_mm");
 }
 
+/// A limit that a refusal states is accepted when it is followed, and what fits nowhere is told so.
+TEST(Cutouts, LimitsNearTheBoreAreAcceptedAndWhatFitsNowhereIsTold) {
+  const auto sent = [](const std::string& shape, const std::string& wall, double z) {
+    return post(kParts, json(R"({"preset": "tube_laser", "kerf_mm": 0.3, "target":
+        {"size": "CHS 42.4x4", "length_mm": 300}, "ends": {"start": {"square_at_mm": 0},
+        "finish": {"square_at_mm": 0}}, "cutouts": [{"id": "c", "at": {"phi_deg": 0, "z_mm": )" +
+                             std::to_string(z) + R"(}, "shape": )" + shape + R"(, "wall": ")" +
+                             wall + "\"}]}"));
+  };
+  const auto circle = [](double d) {
+    return R"({"kind": "circle", "diameter_mm": )" + std::to_string(d) + "}";
+  };
+  double asked = 40.0;
+  for (int step = 0;; ++step) {  // the bore's width first, then what the beam can follow
+    ASSERT_LT(step, 3);
+    const auto answer = sent(circle(asked), "through", 150.0);
+    if (!answer.outcome.error) break;
+    ASSERT_EQ(text(answer.body, "errors/0/pointer"), "/cutouts/0/shape");
+    const double limit = number(answer.body, "errors/0/limit");
+    ASSERT_LT(limit, asked);
+    asked = limit;
+  }
+  EXPECT_GT(asked, 34.39);
+  const auto window = R"({"kind": "rectangle", "along_mm": 400, "round_mm": 20})";
+  for (const double z : {150.0, -100.0, 500.0}) {
+    const auto answer = sent(window, "developed", z);
+    ASSERT_TRUE(answer.outcome.error);
+    EXPECT_EQ(text(answer.body, "errors/0/code"), "cutout_off_part");
+    EXPECT_EQ(text(answer.body, "errors/0/pointer"), "/cutouts/0/shape") << z;
+    EXPECT_NE(text(answer.body, "errors/0/hint").find("does not fit"), std::string::npos) << z;
+  }
+}
+
 TEST(Cutouts, AThousandAndMoreAreOneShapeMoved) {
   const auto made = post(kParts, example("parts/perforated-tube.json"));
   ASSERT_FALSE(made.outcome.error) << made.outcome.body.substr(0, 1500);

@@ -251,6 +251,38 @@ TEST_F(RandomCutouts, AreProvedByTheirPointsInSpace) {
   EXPECT_GT(laid, 100);
 }
 
+/// Prisms that reach nearly to the bore's width, where the way round bends like a square root, and
+/// developed windows over half the girth, whose opposite edges face each other through the tube.
+TEST_F(RandomCutouts, AreProvedUpToTheBoreAndOverHalfTheGirth) {
+  int laid = 0;
+  for (int i = 0; i < 160; ++i) {
+    const auto tube = this->tube();
+    const Ground ground{.tube = tube, .kerf = between(0.002, 0.01) * tube.outer_radius};
+    Spec asked{.id = "p"};
+    asked.as_cut = true;
+    asked.turn = i % 4 == 0 ? 0.0 : between(-kPi, kPi);
+    asked.wall = i % 2 == 0 ? Wall::developed : i % 3 == 0 ? Wall::through : Wall::normal;
+    asked.tilt = between(0.0, 1.0) < 0.5 ? bevel::Tilt::free : bevel::Tilt::axial;
+    if (asked.wall == Wall::developed) {
+      const double most = 1.8 * tube.outer_radius;
+      asked.shape = Rectangle{between(0.5, 1.0) * most, between(0.5, 1.0) * most,
+                              between(0.02, 0.1) * tube.outer_radius};
+    } else {
+      const double ratio = between(0.1, 1.0), corner = between(0.01, 0.04);
+      const auto box = bounds(turned(rectangle(1.0, ratio, corner * ratio), asked.turn));
+      const double size =
+          (1.0 - std::pow(10.0, between(-3.5, -1.0))) * tube.inner_radius() / box.most.y();
+      asked.shape = Rectangle{size, ratio * size, corner * ratio * size};
+    }
+    const auto layout = lay({asked}, ground);
+    if (!layout) continue;
+    ++laid;
+    for (const auto& check : verify(*layout, ground))
+      EXPECT_TRUE(check.passed()) << check.name << " " << check.value << " at " << i;
+  }
+  EXPECT_GT(laid, 120);
+}
+
 TEST_F(RandomCutouts, GrowAsTheTubeGrows) {
   for (int i = 0; i < 60; ++i) {
     const auto tube = this->tube();
