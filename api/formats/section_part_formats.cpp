@@ -25,7 +25,6 @@ std::string section_part_csv(const part::SectionPartSpec& spec, const part::Sect
   if (caption.view == "check_dimensions")
     return Csv(caption).table(dimension_columns(part.check_dimensions)).print();
   NamedColumns cuts;
-  const double radius = spec.section.outer().girth() / kTwoPi;
   for (const auto& mark : part.marks)
     if (mark.lettering) add_strokes(*mark.lettering, cuts);
   for (const auto& step : part.sequence)
@@ -33,7 +32,7 @@ std::string section_part_csv(const part::SectionPartSpec& spec, const part::Sect
       cuts.emplace_back(
           "cut-out " + cutout_tag(part.cutouts, step.index),
           flat_cutout_columns(cutout::placed(part.cutouts, part.cutouts.instances[step.index]),
-                              radius));
+                              spec.section));
   cuts.emplace_back("finish", bevel_columns(part.finish.spec, part.finish.table));
   cuts.emplace_back("start", bevel_columns(part.start.spec, part.start.table));
   return Csv(caption)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "core/base/names.hpp"
 #include "core/cutout/cutout.hpp"
 #include "core/part/cutout_report.hpp"
@@ -18,6 +20,8 @@ inline constexpr auto kNames<cutout::Lay> =
                                         {"prism", cutout::Lay::prism},
                                         {"square_from_bore", cutout::Lay::bored},
                                         {"flat", cutout::Lay::flat}});
+/// The wall of a cut-out's cone.
+inline constexpr std::string_view kCountersink = "countersink";
 template <>
 inline constexpr auto kNames<cutout::Anchor::From> = std::to_array<Option<cutout::Anchor::From>>(
     {{"start", cutout::Anchor::From::start}, {"finish", cutout::Anchor::From::finish}});

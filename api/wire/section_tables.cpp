@@ -1,5 +1,8 @@
 #include "api/wire/section_tables.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "api/wire/joint_names.hpp"
 
 namespace tubecut::api {
@@ -81,18 +84,26 @@ std::vector<std::string> section_bevel_column_names(const bevel::TableSpec& spec
   return out;
 }
 
-Columns flat_cutout_columns(const bevel::Hole& rows, double radius) {
-  const auto girth = [&](std::vector<double> phi) {
-    for (double& one : phi) one *= radius;
+Columns flat_cutout_columns(const bevel::Hole& rows, const section::Section& section) {
+  const auto girth = [](std::vector<double> phi, const section::Curve& curve) {
+    for (double& one : phi) one *= curve.girth() / kTwoPi;
     return phi;
   };
-  return Columns()
-      .column("girth_mm", girth(rows.phi))
+  const auto outer = section.outer(), bore = section.bore();
+  const bool leans = std::ranges::any_of(rows.a, [](double a) { return a != 0.0; });
+  Columns out;
+  out.column("girth_mm", girth(rows.phi, outer))
       .column("z_mm", rows.z)
-      .column("developed_mm", rows.developed)
-      .degrees("b_deg", rows.b)
-      .column("torch_girth_mm", girth(rows.torch_phi))
-      .column("torch_z_mm", rows.torch_z);
+      .column("developed_mm", rows.developed);
+  if (leans)
+    out.column("girth_inner_mm", girth(rows.phi_inner, bore)).column("z_inner_mm", rows.z_inner);
+  out.degrees("b_deg", rows.b);
+  if (leans) out.degrees("a_deg", rows.a);
+  out.column("torch_girth_mm", girth(rows.torch_phi, outer)).column("torch_z_mm", rows.torch_z);
+  if (leans)
+    out.column("torch_girth_inner_mm", girth(rows.torch_phi_inner, bore))
+        .column("torch_z_inner_mm", rows.torch_z_inner);
+  return out;
 }
 
 std::string_view event_name(joint::SectionEventKind kind) {

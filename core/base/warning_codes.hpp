@@ -92,7 +92,11 @@
   X(enters_partner, cut, "Between two rows, the finished cut enters a partner.",                  \
     "Use a finer sampling, or grind to fit here.")                                                \
   X(grazes, cut, "A straight wall of the cut-out grazes the tube: the metal along it is thick.",  \
-    "Make the cut-out narrower, or lay it on the outside: wall developed.")
+    "Make the cut-out narrower, or lay it on the outside: wall developed.")                       \
+  X(spent_beam, cut, "The spent beam of a countersink meets the far side of its hole.",           \
+    "Use a narrower angle, or drill the countersink.")                                            \
+  X(countersink_open, note, "At the tube's sides the countersink stays within its hole.",         \
+    "Use a greater diameter if the head must bear all round.")
 // clang-format on
 
 namespace tubecut {

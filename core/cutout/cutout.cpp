@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -51,6 +52,12 @@ bool alike(const Segment& a, const Segment& b) {
   return a.from == b.from && a.to == b.to && a.centre == b.centre && a.sweep == b.sweep;
 }
 
+Cone cone_of(const Spec& spec) {
+  return {.hole = std::get<Circle>(spec.shape).diameter,
+          .diameter = spec.countersink->diameter,
+          .half = 0.5 * spec.countersink->angle};
+}
+
 Laying laying_of(const Spec& spec, const Ground& ground, bool far) {
   if (ground.section) return {ground.section->section(), far};
   return {ground.tube, lay_of(spec.wall, spec.tilt), far};
@@ -60,8 +67,9 @@ Laying laying_of(const Spec& spec, const Ground& ground, bool far) {
 Result<std::size_t> mould_of(const Spec& spec, const Chain& chain, const Laying& laying,
                              const Ground& ground, std::vector<Mould>& all) {
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i].laying.lay() == laying.lay() && all[i].laying.far() == laying.far() &&
-        all[i].as_cut == spec.as_cut && std::ranges::equal(all[i].chain, chain, alike))
+    if (!all[i].cone && all[i].laying.lay() == laying.lay() &&
+        all[i].laying.far() == laying.far() && all[i].as_cut == spec.as_cut &&
+        std::ranges::equal(all[i].chain, chain, alike))
       return i;
   const Cutting cutting{.kerf = ground.kerf, .tolerance = ground.tolerance, .as_cut = spec.as_cut};
   TRY(auto made, under("shape", rows(laying, chain, cutting)));
@@ -75,7 +83,24 @@ Result<std::size_t> mould_of(const Spec& spec, const Chain& chain, const Laying&
   return all.size() - 1;
 }
 
-/// The moulds of a spec, near side first.
+/// Finds the mould of a cone, or makes it.
+Result<std::size_t> cone_mould_of(const Cone& cone, const Laying& laying, const Ground& ground,
+                                  std::vector<Mould>& all) {
+  if (auto issues =
+          check_cone(laying, cone, ground.kerf, std::min(ground.most_lean, ground.most_swing));
+      !issues.empty())
+    return tl::unexpected(Error{std::move(issues)});
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].cone == cone) return i;
+  all.push_back({.laying = laying,
+                 .chain = circle(cone.diameter),
+                 .rows = cone_rows(laying, cone, {ground.kerf, ground.tolerance}),
+                 .taken = cone_taken(laying, cone),
+                 .cone = cone});
+  return all.size() - 1;
+}
+
+/// The moulds of a spec: near side, its cone, far side.
 Result<std::vector<std::size_t>> moulds_of(const Spec& spec, const Ground& ground,
                                            std::vector<Mould>& all) {
   const auto near = laying_of(spec, ground, false);
@@ -89,6 +114,9 @@ Result<std::vector<std::size_t>> moulds_of(const Spec& spec, const Ground& groun
     if (far && spec.wall != Wall::through) continue;
     TRY(const auto found, mould_of(spec, chain, laying_of(spec, ground, far), ground, all));
     out.push_back(found);
+    if (far || !spec.countersink) continue;
+    TRY(const auto cone, cone_mould_of(cone_of(spec), near, ground, all));
+    out.push_back(cone);
   }
   return out;
 }
@@ -172,7 +200,8 @@ Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground) {
                      .mould = mould,
                      .phi = here,
                      .phi_inner = here,
-                     .z = z + step.along};
+                     .z = z + step.along,
+                     .sunk = spec.countersink && mould == moulds->front()};
         if (ground.section)
           put_on_face(*ground.section, spec.at, step, out.moulds[mould].laying.far(), one);
         out.instances.push_back(std::move(one));
@@ -190,6 +219,34 @@ Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground) {
   }
   if (!issues.empty()) return tl::unexpected(Error{std::move(issues)});
   return out;
+}
+
+std::vector<Warning> cone_warnings(const Layout& layout, double kerf) {
+  std::vector<Warning> out;
+  std::set<std::size_t> seen;
+  for (const auto& one : layout.instances) {
+    const auto& mould = layout.mould_of(one);
+    if (!mould.cone || !seen.insert(one.asked).second) continue;
+    const auto& cone = *mould.cone;
+    const auto member = path_of(one.asked) + "/countersink";
+    if (is_spent_on_wall(mould.laying, cone, kerf))
+      out.push_back({.code = WarningCode::spent_beam,
+                     .member = member,
+                     .detail = "it leaves the cone at " + brief(cone.half * kDegPerRad) +
+                               " deg to the axis, across the hole"});
+    if (is_open(mould.laying, cone))
+      out.push_back({.code = WarningCode::countersink_open,
+                     .member = member,
+                     .detail = "there it is " +
+                               brief(2.0 * cone_radius(mould.laying, cone, 0.5 * kPi, true)) +
+                               " mm wide, and the hole " + brief(cone.hole)});
+  }
+  return out;
+}
+
+std::string title_of(const Layout& layout, const Instance& one) {
+  const auto& mould = layout.mould_of(one);
+  return one.name + (mould.cone ? " countersink" : mould.laying.far() ? " far" : "");
 }
 
 bevel::Hole placed(const Layout& layout, const Instance& one) {

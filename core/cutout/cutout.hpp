@@ -6,6 +6,7 @@
 
 #include "core/base/variant.hpp"
 #include "core/bevel/hole/hole.hpp"
+#include "core/cutout/cone.hpp"
 #include "core/cutout/laying.hpp"
 #include "core/cutout/pattern.hpp"
 
@@ -34,8 +35,7 @@ enum class Wall {
   developed,  // laid on the outside
 };
 
-/// Where a cut-out's local plane touches the part.
-struct Anchor {
+struct Anchor {  // where a cut-out's local plane touches the part
   enum class From { start, finish };
   enum class Zero { work_point, long_point };
   double z = 0.0;  // mm, into the part
@@ -48,6 +48,12 @@ struct Anchor {
   double offset = 0.0;
 };
 
+/// A cone about a circle's axis, at its anchor.
+struct Countersink {
+  double diameter = 0.0;  // mm, in the plane that touches the outside
+  double angle = 0.0;     // rad, from side to side
+};
+
 struct Spec {
   std::string id;
   Shape shape;
@@ -57,6 +63,7 @@ struct Spec {
   Wall wall = Wall::normal;
   bevel::Tilt tilt = bevel::Tilt::axial;
   Pattern pattern;
+  std::optional<Countersink> countersink = {};  // of a circle
 };
 
 /// The tube that is cut, and the heights that anchors count from.
@@ -66,8 +73,9 @@ struct Ground {
   double start_long = 0.0, start_work = 0.0;
   double finish_long = 0.0, finish_work = 0.0;
   double kerf = 0.0;
-  double tolerance = 0.01;       // see Cutting
-  double most_lean = 0.5 * kPi;  // rad, of the torch across
+  double tolerance = 0.01;        // see Cutting
+  double most_lean = 0.5 * kPi;   // rad, of the torch across
+  double most_swing = 0.5 * kPi;  // rad, of the torch to either side along the tube
 };
 
 /// Returns z of an anchor in the part's frame.
@@ -83,7 +91,8 @@ struct Mould {
   bool as_cut = false;
   bevel::Hole rows;  // phases and heights from the anchor
   Taken taken;
-  Flat centre = Flat::Zero();  // deep in the scrap
+  Flat centre = Flat::Zero();     // deep in the scrap
+  std::optional<Cone> cone = {};  // of a countersink; the chain is its circle that touches
 };
 
 /// One cut-out of one wall, in the part's frame.
@@ -95,6 +104,7 @@ struct Instance {
   double phi = 0.0, phi_inner = 0.0, z = 0.0;
   int face = 0;         // of a section
   double offset = 0.0;  // mm, of the anchor from the middle of this face
+  bool sunk = false;    // a circle whose edges are those of its cone, the next instance
 };
 
 struct Layout {
@@ -108,11 +118,18 @@ struct Layout {
 /// Lays every cut-out on its wall. On a section, each lies within one flat of it.
 ///
 /// Errors  at cutouts/k: out_of_range, contour_open, contour_crosses, open_profile (shape),
-///         pattern_wraps, out_of_range (pattern), torch_range (tilt). Of a section: out_of_range
+///         pattern_wraps, out_of_range (pattern), torch_range (tilt); those of check_cone. Of a
+///         section: out_of_range
 ///         (shape, at/offset, at/girth or pattern: beyond the flat), unsupported_combination
 ///         (pattern/faces: without the anchor's own face). All of them at once.
 /// Source  docs/theory/cutouts.md.
 [[nodiscard]] Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground);
+
+/// What a countersink is for the fitter: spent_beam, countersink_open; one of each a spec.
+[[nodiscard]] std::vector<Warning> cone_warnings(const Layout& layout, double kerf);
+
+/// "bolt.3", "bolt.3 far", "bolt.3 countersink".
+[[nodiscard]] std::string title_of(const Layout& layout, const Instance& one);
 
 /// An instance's rows in the part's frame.
 [[nodiscard]] bevel::Hole placed(const Layout& layout, const Instance& one);
@@ -121,9 +138,9 @@ struct Layout {
 /// against the wall, the volume ring by ring.
 [[nodiscard]] std::vector<Check> verify(const Layout& layout, const Ground& ground);
 
-/// What a mould takes of the wall, mm^3: ring by ring, each by Gauss along the segments.
+/// What a mould, or all cut-outs, take of the wall, mm^3: ring by ring, each by Gauss along the
+/// segments.
 [[nodiscard]] double volume_by_rings(const Mould& mould);
-/// What all cut-outs take.
 [[nodiscard]] double volume_by_rings(const Layout& layout);
 
 /// "cutouts/3": where errors about a spec point.

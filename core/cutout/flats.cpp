@@ -78,7 +78,7 @@ std::optional<Issue> beyond_flat(const Spec& spec, const Layout& layout, std::si
                       ", which is " + brief(2.0 * half) +
                       " mm wide; no cut-out goes over a corner"};
     if (reach.to - reach.from > 2.0 * half) {
-      out.member = "shape";
+      out.member = layout.mould_of(one).cone ? "countersink/diameter" : "shape";
       out.got = reach.to - reach.from;
       out.limit = 2.0 * half;
       out.unit = "mm";

@@ -8,6 +8,8 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/cutout/cone.hpp"
+#include "core/cutout/cutout.hpp"
 #include "core/math/polygon.hpp"
 
 namespace tubecut::cutout {
@@ -265,12 +267,23 @@ Result<bevel::Hole> rows(const Laying& laying, const Chain& chain, const Cutting
   out.z_inner = out.z;
   out.torch_z_inner = out.torch_z;
   out.b.assign(out.phi.size(), 0.0);
-  for (std::size_t i = 0; i < out.phi.size(); ++i) {
-    const auto j = (i + 1) % out.phi.size();
-    out.developed.push_back(out.length_total);
-    out.length_total += elementary::hypot(outer * (out.phi[j] - out.phi[i]), out.z[j] - out.z[i]);
-  }
+  measure_edge(outer, out);
   return out;
+}
+
+Result<bevel::Hole> rows(const Mould& mould, const Cutting& cutting) {
+  if (mould.cone) return cone_rows(mould.laying, *mould.cone, cutting);
+  return rows(mould.laying, mould.chain, cutting);
+}
+
+void measure_edge(double outer, bevel::Hole& rows) {
+  rows.length_total = 0.0;
+  for (std::size_t i = 0; i < rows.phi.size(); ++i) {
+    const auto j = (i + 1) % rows.phi.size();
+    rows.developed.push_back(rows.length_total);
+    rows.length_total +=
+        elementary::hypot(outer * (rows.phi[j] - rows.phi[i]), rows.z[j] - rows.z[i]);
+  }
 }
 
 }  // namespace tubecut::cutout

@@ -29,6 +29,13 @@ struct Cutting {
 [[nodiscard]] Result<bevel::Hole> rows(const Laying& laying, const Chain& chain,
                                        const Cutting& cutting);
 
+/// The same of a mould, which may be a cone; that one has no errors.
+struct Mould;
+[[nodiscard]] Result<bevel::Hole> rows(const Mould& mould, const Cutting& cutting);
+
+/// Sets the ways along the outer edge, whose circle or girth has the radius `outer`.
+void measure_edge(double outer, bevel::Hole& rows);
+
 /// From the edge to the torch's axis where the edge's unit normal towards the part is `normal`, in
 /// the plane that the chain is offset in: a prism's local plane, else the developed outside.
 [[nodiscard]] Flat kerf_offset(const Laying& laying, double kerf, const Flat& normal);

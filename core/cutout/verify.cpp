@@ -4,6 +4,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/bevel/beam/beam.hpp"
+#include "core/cutout/cone_verify.hpp"
 #include "core/cutout/cutout.hpp"
 #include "core/math/cylinder.hpp"
 #include "core/math/quadrature.hpp"
@@ -34,6 +35,8 @@ double off_chain(const Mould& mould, std::size_t row) {
   const auto& rows = mould.rows;
   const auto outer = in_space(laying, true, rows.phi[row], rows.z[row]);
   const auto inner = in_space(laying, false, rows.phi_inner[row], rows.z_inner[row]);
+  if (mould.cone)
+    return worst_of({off_cone(laying, *mould.cone, outer), off_cone(laying, *mould.cone, inner)});
   const auto off = [&](double a, double b) { return distance(mould.chain, {a, b}); };
   const double wall = inner.head<2>().normalized().dot(
       Eigen::Vector2d(-outer.y(), outer.x()));  // 0 where it stands square
@@ -60,7 +63,8 @@ double off_face(const Layout& layout, const Instance& one, const section::Wall& 
       const double b = (p.dot(t) - one.offset) * (mould.laying.far() ? -1.0 : 1.0);
       const double a = (outer ? rows.z[i] : rows.z_inner[i]) - one.z;
       worsen(worst, std::abs(wall.outer().face_distance(one.face) - depth - p.dot(n)));
-      worsen(worst, distance(mould.chain, {a, b}));
+      worsen(worst, mould.cone ? off_cone(mould.laying, *mould.cone, {-depth, b, a})
+                               : distance(mould.chain, {a, b}));
     }
   return worst;
 }
@@ -70,6 +74,7 @@ std::vector<Vector3d> wall_places(const Mould& mould) {
   double length = 0.0;
   for (const auto& s : mould.chain) length += s.length();
   const double apart = std::max(kApart, length / kMostPlaces);
+  if (mould.cone) return cone_places(mould.laying, *mould.cone, apart);
   std::vector<Vector3d> out;
   for (const auto& s : mould.chain) {
     const int parts = std::max(1, static_cast<int>(std::ceil(s.length() / apart)));
@@ -93,6 +98,8 @@ std::vector<Vector3d> wall_places(const Mould& mould) {
 double gouge(const Mould& mould, double kerf) {
   const auto places = wall_places(mould);
   const auto& r = mould.rows;
+  // A warning says what the spent beam of a cone does beyond its axis.
+  const bool this_side = mould.cone && is_spent_on_wall(mould.laying, *mould.cone, kerf);
   double worst = 0.0;
   for (std::size_t i = 0; i < r.phi.size(); ++i)
     for (const double share : {0.0, 0.5}) {
@@ -102,10 +109,11 @@ double gouge(const Mould& mould, double kerf) {
       };
       const auto from =
           in_space(mould.laying, false, mixed(r.torch_phi_inner), mixed(r.torch_z_inner));
-      const Vector3d way =
-          (in_space(mould.laying, true, mixed(r.torch_phi), mixed(r.torch_z)) - from).normalized();
+      const auto head = in_space(mould.laying, true, mixed(r.torch_phi), mixed(r.torch_z));
+      const Vector3d way = (head - from).normalized();
       double nearest = 0.25 * kerf * kerf;
       for (const auto& p : places) {
+        if (this_side && p.tail<2>().dot(head.tail<2>()) < 0.0) continue;
         const Vector3d off = p - from;
         const double along = off.dot(way);
         if (along < -mould.laying.inner()) continue;  // the edge on the opposite side of the tube
@@ -133,6 +141,7 @@ double around_flat(const Chain& chain, const math::GaussRule& rule) {
 }  // namespace
 
 double volume_by_rings(const Mould& mould) {
+  if (mould.cone) return cone_by_rings(mould.laying, *mould.cone);
   static const auto kAcross = math::gauss_legendre(kRings), kAlong = math::gauss_legendre(kGauss);
   const double inner = mould.laying.inner(), outer = mould.laying.outer();
   if (mould.laying.lay() == Lay::flat)

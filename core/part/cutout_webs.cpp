@@ -55,7 +55,7 @@ WallLine line_of(const bevel::Hole& rows, double radius, bool outer) {
 Result<std::vector<bevel::Hole>> fine_rows(const cutout::Layout& layout) {
   std::vector<bevel::Hole> out;
   for (const auto& mould : layout.moulds) {
-    TRY(auto rows, cutout::rows(mould.laying, mould.chain, {.tolerance = kFine}));
+    TRY(auto rows, cutout::rows(mould, {.tolerance = kFine}));
     out.push_back(std::move(rows));
   }
   return out;
@@ -90,6 +90,7 @@ DevelopedWall developed(const WallsOfPart& part, const PartWall& wall,
   };
   const auto& all = part.layout.instances;
   for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].sunk) continue;  // its cone has its edges
     const double phi = out.outer ? all[i].phi : all[i].phi_inner;
     add({.line = all[i].mould, .at = {out.radius * phi, all[i].z}, .index = i});
   }

@@ -21,6 +21,11 @@ struct Reach {
   double z;
 };
 
+double removed_by(const cutout::Mould& mould, double at) {
+  if (mould.cone) return cutout::cone_removed(mould.laying, *mould.cone, at);
+  return cutout::removed(mould.laying, mould.chain, at);
+}
+
 class Removed {
  public:
   explicit Removed(const cutout::Layout& layout) {
@@ -39,7 +44,7 @@ class Removed {
     double sum = 0.0;
     for (auto it = std::ranges::lower_bound(all_, z - tallest_, {}, &Reach::from);
          it != all_.end() && it->from < z; ++it)
-      if (it->to > z) sum += cutout::removed(it->mould->laying, it->mould->chain, z - it->z);
+      if (it->to > z) sum += removed_by(*it->mould, z - it->z);
     return sum;
   }
 

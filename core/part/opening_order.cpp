@@ -34,17 +34,22 @@ double go_round(const std::vector<double>& middles, std::vector<Step>::iterator 
   return middles[std::prev(last)->index];
 }
 
-/// Orders openings after adding the cut-outs to the holes among them.
+/// Orders openings after adding the cut-outs to the holes among them. A cone follows its circle,
+/// because its beam needs the hole to pass into.
 std::vector<Step> ordered(std::vector<Step> out, const cutout::Layout& layout) {
   std::vector<std::pair<double, double>> spans;
   for (const auto& mould : layout.moulds)
     spans.push_back(span_of(mould.rows.torch_z, mould.rows.torch_z_inner));
+  const auto step = [&](std::size_t i) {
+    const auto& one = layout.instances[i];
+    const auto& span = spans[one.mould];
+    return Step{Step::What::cutout, i, one.z + span.first, one.z + span.second};
+  };
   std::vector<double> middles;
   for (std::size_t i = 0; i < layout.instances.size(); ++i) {
     const auto& one = layout.instances[i];
-    const auto& span = spans[one.mould];
-    out.push_back({Step::What::cutout, i, one.z + span.first, one.z + span.second});
     middles.push_back(middle(layout, one));
+    if (!layout.mould_of(one).cone) out.push_back(step(i));
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const Step& a, const Step& b) { return a.z_to > b.z_to; });
@@ -58,6 +63,10 @@ std::vector<Step> ordered(std::vector<Step> out, const cutout::Layout& layout) {
       at = go_round(middles, first, last, at);
     }
     first = last;
+  }
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if (out[k].what != Step::What::cutout || !layout.instances[out[k].index].sunk) continue;
+    out.insert(out.begin() + static_cast<std::ptrdiff_t>(k) + 1, step(out[k].index + 1));
   }
   return out;
 }

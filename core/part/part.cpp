@@ -233,7 +233,8 @@ cutout::Ground cutout_ground(const PartSpec& spec, const Part& part) {
           .finish_work = work + *spec.target.length,
           .kerf = spec.cutouts.kerf,
           .tolerance = spec.cutouts.tolerance,
-          .most_lean = spec.cutouts.most_lean};
+          .most_lean = spec.cutouts.most_lean,
+          .most_swing = spec.cutouts.most_swing};
 }
 
 Result<Part> part(const PartSpec& spec) {

@@ -80,8 +80,9 @@ struct CutoutSpecs {
   std::vector<HoleCutout> holes = {};
   std::vector<cutout::TextSpec> texts = {};
   double kerf = 0.0;
-  double tolerance = 0.01;       // mm, of the straight ways from row to row
-  double most_lean = 0.5 * kPi;  // rad, of the torch across
+  double tolerance = 0.01;        // mm, of the straight ways from row to row
+  double most_lean = 0.5 * kPi;   // rad, of the torch across
+  double most_swing = 0.5 * kPi;  // rad, of the torch to either side along the tube
 };
 
 struct PartSpec {

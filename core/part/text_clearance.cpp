@@ -60,7 +60,7 @@ void add_cutouts(const cutout::Layout& layout, Outside& out) {
   const double radius = out.girth / kTwoPi;
   std::vector<WallLine> lines;
   for (const auto& mould : layout.moulds) {
-    const auto rows = cutout::rows(mould.laying, mould.chain, {.tolerance = kFineEdge});
+    const auto rows = cutout::rows(mould, {.tolerance = kFineEdge});
     lines.push_back(outer_line(rows ? *rows : mould.rows, radius));
   }
   for (const auto& one : layout.instances)

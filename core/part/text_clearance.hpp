@@ -61,6 +61,8 @@ template <class Spec, class Part>
       std::ranges::move(made.error().issues, std::back_inserter(issues));
   };
   take(cutout::lay(spec.cutouts.all, ground), out.cutouts);
+  std::ranges::move(cutout::cone_warnings(out.cutouts, ground.kerf),
+                    std::back_inserter(out.warnings));
   if (!out.cutouts.empty()) take(check_cutouts(spec, out), out.cutout_report);
   auto texts = cutout::lay_texts(spec.cutouts.texts, ground);
   std::ranges::move(texts.issues, std::back_inserter(issues));

@@ -84,7 +84,7 @@ TorchCut cutout_cut(const cutout::Layout& layout, std::size_t index, double kerf
   const auto& one = layout.instances[index];
   const auto& mould = layout.mould_of(one);
   const auto rows = cutout::placed(layout, one);
-  TorchCut out{.name = "cut-out " + one.name + (mould.laying.far() ? " far" : ""),
+  TorchCut out{.name = "cut-out " + cutout::title_of(layout, one),
                .path = std::move(tube),
                .kerf = kerf,
                .on_flat = mould.laying.lay() == cutout::Lay::flat};

@@ -377,6 +377,8 @@ class Solid:
         kind, v = self.file.entities[number]
         if kind == "CYLINDRICAL_SURFACE":
             return ("cylinder", self.frame(v[1]), v[2]) if self.about_z(v[1]) else ("bore", *self.axes(v[1]), v[2])
+        if kind == "CONICAL_SURFACE":
+            return ("cone", *self.axes(v[1]), v[2], v[3])
         if kind == "PLANE":
             return ("plane", *self.plane(v[1]))
         if kind != "B_SPLINE_SURFACE_WITH_KNOTS" or v[2] != 1 or v[9] != [2, 2]:
@@ -484,6 +486,11 @@ def off_surface(surface, points):
     if kind == "bore":
         origin, axis, _, radius = about
         return np.abs(np.linalg.norm(np.cross(points - origin, axis), axis=1) - radius)
+    if kind == "cone":
+        origin, axis, _, radius, half = about
+        height = (points - origin) @ axis
+        from_axis = np.linalg.norm(np.cross(points - origin, axis), axis=1)
+        return np.abs(from_axis - radius - height * np.tan(half)) * np.cos(half)
     return nearest(about[0], points)
 
 
@@ -509,8 +516,8 @@ def signed_area(face, solid):
     elif kind == "cylinder":
         from_axis = points - about[0]
         x, y = np.unwrap(np.arctan2(from_axis[:, 1], from_axis[:, 0])), points[:, 2]
-    elif kind == "bore":
-        origin, axis, side, _ = about
+    elif kind in ("bore", "cone"):
+        origin, axis, side = about[:3]
         from_axis = points - origin
         x, y = np.unwrap(np.arctan2(from_axis @ np.cross(axis, side), from_axis @ side)), from_axis @ axis
     else:

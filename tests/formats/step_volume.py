@@ -47,6 +47,26 @@ def under_bore(face, solid):
     return np.sum(weights * (origin + radius * out)[:, 2] * out[:, 2]) * radius * deep
 
 
+def under_cone(face, solid):
+    """Integral of z over the shadow of a cone between two arcs about its axis, as if its normal left the axis."""
+    arcs = [solid.edges[edge] for edge, _ in face["loops"][0] if solid.edges[edge]["curve"][0] == "arc"]
+    if len(arcs) != 2:
+        raise Malformed("a cone that is not between two arcs")
+    origin, axis, _, radius, half = face["surface"][1:]
+    heights = sorted((arc_of(arc)[0] - origin) @ axis for arc in arcs)
+    _, z, x, y, _, first, last = arc_of(arcs[0])
+    turn = (first + (last - first) * (np.arange(8)[:, None] + PLACES) / 8).ravel()[:, None]
+    weights = np.tile(WEIGHTS, 8) * (last - first) / 8
+    out = np.cos(turn) * x + np.sin(turn) * y
+    total = 0.0
+    for place, weight in zip(PLACES, WEIGHTS):
+        height = heights[0] + place * (heights[1] - heights[0])
+        wide = radius + height * np.tan(half)
+        normal = wide * (out - np.tan(half) * axis)
+        total += weight * (heights[1] - heights[0]) * np.sum(weights * (origin + height * axis + wide * out)[:, 2] * normal[:, 2])
+    return total
+
+
 def volume(solid):
     """Integral of z over the border's shadow: cylinders about z have none."""
     total = 0.0
@@ -58,6 +78,8 @@ def volume(solid):
             total += under_plane(face, solid) * (sign if solid.edges[face["loops"][0][0][0]]["curve"][0] == "circle" else 1.0)
         if kind == "bore":
             total += sign * under_bore(face, solid)
+        if kind == "cone":
+            total += sign * under_cone(face, solid)
         if kind == "ruled":
             p, d = about[0].at(about[0].within(PLACES))
             weights = (np.diff(about[0].knots)[:, None] * WEIGHTS[None]).ravel()

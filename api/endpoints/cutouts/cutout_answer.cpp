@@ -60,6 +60,15 @@ void encode_hole_of(const part::HoleCutout& one, Writer& w) {
   });
 }
 
+void encode_cone(const cutout::Cone& cone, double wall, Writer& w) {
+  w.object("countersink", [&](Writer& o) {
+    o.field("diameter_mm", cone.diameter);
+    o.degrees("angle_deg", 2.0 * cone.half);
+    o.field("depth_mm", cone.depth());
+    o.field("land_mm", std::max(0.0, wall - cone.depth()));
+  });
+}
+
 void encode_group(const CutoutsOfPart& part, const std::vector<std::size_t>& group, Writer& o) {
   const auto& layout = part.layout;
   const auto& first = layout.instances[group.front()];
@@ -68,10 +77,11 @@ void encode_group(const CutoutsOfPart& part, const std::vector<std::size_t>& gro
   for (const auto& one : part.specs.holes)
     if (one.cutout == first.asked) encode_hole_of(one, o);
   o.field("side", mould.laying.far() ? "far" : "near");
-  o.field("wall", name_of(mould.laying.lay()));
+  o.field("wall", mould.cone ? kCountersink : name_of(mould.laying.lay()));
+  if (mould.cone) encode_cone(*mould.cone, mould.laying.wall(), o);
   o.object("points", [&](Writer& p) {
     const auto rows = cutout::placed(layout, first);
-    (part.section != nullptr ? flat_cutout_columns(rows, part.radius) : cutout_columns(rows))
+    (part.section != nullptr ? flat_cutout_columns(rows, *part.section) : cutout_columns(rows))
         .write(p);
   });
   o.field("b_sign", kBSignInPart);
@@ -185,6 +195,8 @@ std::vector<Measure> measures_of_cutouts(const CutoutsOfPart& part, bool seam_kn
   for (const auto& one : part.specs.holes)
     if (one.hole.branch.kind != joint::JointKind::set_on)
       out.push_back({"max_root_gap_mm", one.greatest_gap});
+  for (const auto& mould : part.layout.moulds)
+    if (mould.cone) out.push_back({"max_b_deg", mould.cone->half * kDegPerRad});
   for (const auto& one : part.specs.all)
     if (const auto size = cutout::least_size(one.shape)) {
       out.push_back({"min_diameter_mm", *size});

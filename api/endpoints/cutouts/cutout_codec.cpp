@@ -28,6 +28,7 @@ constexpr Range kSize{.min = 0.1, .max = 1e5};  // mm; no beam cuts a smaller on
 constexpr Range kCorner{.min = 0.0, .max = 5e4};
 constexpr Range kPlace{.min = -1e5, .max = 1e5};
 constexpr Range kTurnDeg{.min = -360.0, .max = 360.0};
+constexpr Range kSinkDeg{.min = 30.0, .max = 150.0};
 constexpr double kTolerance = 0.01;  // mm, where the sampling has none
 
 /// What a part's cut-outs have in common, as far as it is known.
@@ -284,16 +285,52 @@ cutout::Pattern decode_pattern(Reader& in, const Common& common) {
   return cutout::Once{};
 }
 
+/// Decodes `tilt`. A countersink's default is free, because no other torch cuts a cone.
+bevel::Tilt decode_cutout_tilt(Reader& in, Preset preset) {
+  if (preset == Preset::tube_laser) return decode_no_tilt(in);
+  if (!in.has("countersink")) return in.choice("tilt", bevel::Tilt::axial);
+  const auto tilt = in.choice("tilt", bevel::Tilt::free);
+  if (in.understood("tilt") && tilt != bevel::Tilt::free)
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "tilt",
+              .got = Json{std::string(name_of(tilt))},
+              .limit = Json{"free"},
+              .hint = "on a countersink the torch leans to all sides"},
+             in.find("tilt"));
+  return tilt;
+}
+
+/// Decodes `countersink`, once the wall and the shape are known.
+void decode_countersink(Reader& in, Preset preset, cutout::Spec& out) {
+  if (preset == Preset::tube_laser)
+    return refuse_fields(in, {"countersink"}, "the torch of a tube laser does not tilt");
+  in.note("countersink");
+  if (!in.has("countersink")) return;
+  const bool circle = std::holds_alternative<cutout::Circle>(out.shape);
+  const bool straight = out.wall != cutout::Wall::developed;
+  if (in.sound("shape") && in.understood("wall") && !(circle && straight)) {
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "countersink",
+              .hint = circle ? "requires wall normal or through" : "requires a circle"},
+             in.find("countersink"));
+    return;
+  }
+  out.countersink = in.object("countersink", [](Reader& c) {
+    const double diameter = c.number("diameter_mm", kSize);
+    return cutout::Countersink{diameter, c.angle("angle_deg", kSinkDeg).rad()};
+  });
+}
+
 cutout::Spec decode_cutout(Reader& in, const Common& common, std::set<std::string>& ids) {
   cutout::Spec out{.id = decode_own_id(in, ids, "another cut-out has it")};
   out.wall = in.choice("wall", cutout::Wall::normal);
-  out.tilt = common.preset == Preset::tube_laser ? decode_no_tilt(in)
-                                                 : in.choice("tilt", bevel::Tilt::axial);
+  out.tilt = decode_cutout_tilt(in, common.preset);
   const auto lay = cutout::lay_of(out.wall, out.tilt);
   in.object("shape", [&](Reader& s) {
     decode_shape(s, common, lay, out);
     return 0;
   });
+  decode_countersink(in, common.preset, out);
   out.at = in.object("at", [&](Reader& a) { return decode_anchor(a, common.tube()); });
   in.note("pattern");
   if (in.has("pattern"))
@@ -308,7 +345,8 @@ part::CutoutSpecs decode_cutouts(Reader& in, Preset preset, const bevel::TableSp
   part::CutoutSpecs out{
       .kerf = once.kerf,
       .tolerance = once.sampling.tolerance ? once.sampling.tolerance->value : kTolerance,
-      .most_lean = once.torch.max.rad()};
+      .most_lean = once.torch.max.rad(),
+      .most_swing = std::min(once.torch.max.rad(), -once.torch.min.rad())};
   const Common common{preset, once, section, sure};
   out.texts = decode_texts(in, common.tube());
   in.note("cutouts");

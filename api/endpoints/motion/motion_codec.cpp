@@ -354,6 +354,11 @@ Result<ScheduleRequest> resolve(ScheduleRequest request) {
                    .hint = "the machine's torch swings along the tube only"});
   const auto& cutouts = resolved.part.cutouts.all;
   for (std::size_t k = 0; k < cutouts.size(); ++k)
+    if (cutouts[k].countersink)
+      return fail({.code = ErrorCode::unsupported_combination,
+                   .member = "part/cutouts/" + std::to_string(k) + "/countersink",
+                   .hint = "the machine's torch swings along the tube only"});
+  for (std::size_t k = 0; k < cutouts.size(); ++k)
     if (cutout::lay_of(cutouts[k].wall, cutouts[k].tilt) == cutout::Lay::prism)
       return fail({.code = ErrorCode::unsupported_combination,
                    .member = "part/cutouts/" + std::to_string(k) + "/tilt",

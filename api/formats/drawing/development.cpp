@@ -229,6 +229,7 @@ Development developed(const part::PartSpec& spec, const part::Part& part) {
     auto& one = out.cuts.emplace_back(
         outline(spec.target, cutout::placed(layout, layout.instances[i]), "cut-out " + tag));
     one.label = tag;
+    one.sunk = layout.instances[i].sunk;
   }
   out.marks = part.marks;
   out.whole = true;
@@ -249,7 +250,8 @@ CutOutline flat_outline(const section::Section& section, const cutout::Layout& l
                  .inner = {},
                  .torch = {.radius = outer, .phi = rows.torch_phi, .z = rows.torch_z},
                  .around = false,
-                 .label = tag};
+                 .label = tag,
+                 .sunk = layout.instances[i].sunk};
   if (on == BoreOn::bore) out.inner = {.radius = inner, .phi = rows.phi_inner, .z = rows.z_inner};
   return out;
 }

@@ -37,6 +37,7 @@ struct CutOutline {
   CylinderCurve outer, inner, torch;  // any may be empty
   bool around = true;                 // it goes round the tube; else it is a hole
   std::string label = {};             // of a hole: "H1 for B2"
+  bool sunk = false;                  // a circle whose edges are those of its countersink
 };
 
 /// A segment of an end's outer edge that one partner cuts: its position, and the minimum depth of

@@ -57,8 +57,7 @@ std::string_view partner_color(std::size_t i) {
 std::string hole_tag(std::size_t i) { return "H" + std::to_string(i + 1); }
 
 std::string cutout_tag(const cutout::Layout& layout, std::size_t i) {
-  const auto& one = layout.instances[i];
-  return one.name + (layout.mould_of(one).laying.far() ? " far" : "");
+  return cutout::title_of(layout, layout.instances[i]);
 }
 
 std::vector<Opening> openings(const part::Part& part) {
@@ -67,8 +66,11 @@ std::vector<Opening> openings(const part::Part& part) {
     out.push_back({part.holes[i].hole, hole_tag(i), true});
   const auto& layout = part.cutouts;
   const bool tagged = layout.instances.size() <= kMostTagged;
-  for (std::size_t i = 0; i < layout.instances.size(); ++i)
-    out.push_back({cutout::placed(layout, layout.instances[i]), cutout_tag(layout, i), tagged});
+  for (std::size_t i = 0; i < layout.instances.size(); ++i) {
+    const auto& one = layout.instances[i];
+    out.push_back({cutout::placed(layout, one), cutout_tag(layout, i),
+                   tagged && !layout.mould_of(one).cone});  // its circle has the tag
+  }
   return out;
 }
 

@@ -176,9 +176,9 @@ class Drawing {
   }
   void outline(const CutOutline& cut, std::size_t i) {
     const auto number = i == 0 ? std::string{} : "-" + std::to_string(i + 1);
-    curve(cut.inner, cut.around, kInnerEdge, "cut-inner" + number);
+    if (!cut.sunk) curve(cut.inner, cut.around, kInnerEdge, "cut-inner" + number);
     curve(cut.torch, cut.around, kTorchLine, "torch" + number);
-    curve(cut.outer, cut.around, kOuterEdge, "cut-outer" + number);
+    if (!cut.sunk) curve(cut.outer, cut.around, kOuterEdge, "cut-outer" + number);
   }
   /// Draws the strokes of a text, again a turn on where it reaches beyond the seam.
   void draw(const cutout::Lettering& text) {

@@ -129,6 +129,7 @@ std::string cutout_block(const part::PartSpec& spec, const part::Part& part, std
   const auto& one = part.cutouts.instances[index];
   const auto& mould = part.cutouts.mould_of(one);
   const auto& asked = spec.cutouts.all[one.asked];
+  if (mould.cone) return dstv_countersink(one.name, *mould.cone);
   auto out = dstv_cutout_title(cut.label, mould.laying.lay());
   const double anchor = up(spec.target.outer_radius, turned_from(0.0, one.phi));
   if (!mould.laying.far()) out += dstv_shape(asked, one.z, anchor);

@@ -70,6 +70,11 @@ std::string shape_words(const cutout::Shape& shape) {
          stated(drawing.start) + (drawing.mirrored ? "; mirrored" : "");
 }
 
+std::string sink_words(const std::optional<cutout::Countersink>& sink) {
+  if (!sink) return {};
+  return field("countersink", sink->diameter) + field("sunk at", sink->angle * kDegPerRad);
+}
+
 std::string piece_words(const cutout::DrawnSegment& piece) {
   if (!piece.centre) return "line to " + stated(piece.to);
   return std::string("arc ") + (piece.clockwise ? "cw" : "ccw") + " to " + stated(piece.to) +
@@ -103,12 +108,19 @@ std::string dstv_corners(const section::Section& section) {
 std::string dstv_shape(const cutout::Spec& cutout, double x, double y) {
   auto out = dstv_comment("shape: " + shape_words(cutout.shape) +
                           (cutout.turn == 0.0 ? "" : field("turned", cutout.turn * kDegPerRad)) +
-                          (cutout.as_cut ? "; as cut" : "") + "; wall " +
-                          std::string(name_of(cutout.wall)) + "; tilt " +
+                          (cutout.as_cut ? "; as cut" : "") + sink_words(cutout.countersink) +
+                          "; wall " + std::string(name_of(cutout.wall)) + "; tilt " +
                           std::string(name_of(cutout.tilt)) + field("at x", x) + field("y", y));
   if (const auto* drawing = std::get_if<cutout::Contour>(&cutout.shape))
     for (const auto& piece : drawing->pieces) out += dstv_comment(piece_words(piece));
   return out;
+}
+
+std::string dstv_countersink(const std::string& name, const cutout::Cone& cone) {
+  return dstv_comment("countersink of " + dstv_text(name) +
+                      " after its bore: " + stated(cone.diameter) + " mm outside, " +
+                      stated(2.0 * cone.half * kDegPerRad) + " deg, " + stated(cone.depth()) +
+                      " mm deep");
 }
 
 std::string dstv_lettering(const cutout::Lettering& text, std::string_view face, double y,

@@ -25,6 +25,9 @@ namespace tubecut::api {
 /// Returns the lines of a cut-out's shape, whose anchor lies at x, y of its block.
 [[nodiscard]] std::string dstv_shape(const cutout::Spec& cutout, double x, double y);
 
+/// Returns the line of a countersink, which no block of the file has.
+[[nodiscard]] std::string dstv_countersink(const std::string& name, const cutout::Cone& cone);
+
 inline constexpr const char* kTextColumns =
     "SI: a text to be marked; x and y where its base line begins, its angle from x to y, height";
 /// Returns the block of a text, with the line that states all of it. `y` of its anchor on the face

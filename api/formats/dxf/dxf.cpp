@@ -96,7 +96,7 @@ std::string extent_in_words(const CutOutline& hole, bool of_section) {
 void name_holes(DxfWriter& w, const Development& d) {
   constexpr double kHeight = 3.0, kLeast = 0.8;
   for (const auto& cut : d.cuts) {
-    if (cut.around) continue;
+    if (cut.around || cut.sunk) continue;
     const auto [phi, z, room] = label_place(cut);
     const double share = std::min(1.0, room / text_width(cut.label, kHeight));
     const double height = std::max(kLeast, kHeight * share);
@@ -177,8 +177,10 @@ void draw_cuts(DxfWriter& w, const Development& d, bool space) {
       else
         w.polyline(layer, in_space(c, cut.around), true);
     };
-    draw(kCutOuter, cut.outer);
-    draw(kCutInner, cut.inner);
+    if (!cut.sunk) {
+      draw(kCutOuter, cut.outer);
+      draw(kCutInner, cut.inner);
+    }
     draw(kTorch, cut.torch);
   }
 }

@@ -100,6 +100,7 @@ std::string cutout_block(const part::SectionPartSpec& spec, const part::SectionP
     const auto p = outer.at(phi / kTwoPi * outer.girth()).point;
     return NcPoint{z, half + (face.across_height ? p.x() : p.y())};
   };
+  if (const auto& cone = layout.mould_of(one).cone) return dstv_countersink(one.name, *cone);
   auto out = dstv_cutout_title(cutout_tag(layout, index), layout.mould_of(one).laying.lay());
   const auto& laying = layout.mould_of(one).laying;
   const auto at = point(one.phi + laying.phase(0.0), one.z);

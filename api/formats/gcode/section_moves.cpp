@@ -22,9 +22,16 @@ Eigen::Vector2d tip(const UprightPlace& at) {
 
 TorchPlace between(const TorchReach& r, const TorchPlace& from, const TorchPlace& to,
                    double share) {
+  const auto mixed = [&](double x, double y) { return x + share * (y - x); };
+  const auto turned = [&](double x, double y) {
+    return elementary::atan(mixed(elementary::tan(x), elementary::tan(y)));
+  };
+  if (from.on_flat)  // both edges are straight there if the tangents are linear
+    return {mixed(from.phi, to.phi), mixed(from.z, to.z), turned(from.b, to.b),
+            turned(from.a, to.a), true};
   const auto at = motion::between({r.outer_radius, r.inner_radius}, {from.phi, from.z, from.b},
                                   {to.phi, to.z, to.b}, share);
-  return {at.phi, at.z, at.b, 0.0, from.on_flat};
+  return {at.phi, at.z, at.b};
 }
 
 }  // namespace

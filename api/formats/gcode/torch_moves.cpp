@@ -88,6 +88,14 @@ double sag_in_space(const TorchReach& r, const TorchPlace& from, const TorchPlac
   return 1.1 * edge + inner_sag(*d, a, b);
 }
 
+/// On a flat, places on the inner wall are linear functions of the tangents.
+double sag_on_flat(const TorchReach& r, const TorchPlace& from, const TorchPlace& to) {
+  const auto a = tangent(from.a, to.a), b = tangent(from.b, to.b);
+  const double cosine = 1.0 / std::sqrt(1.0 + a.most * a.most + b.most * b.most);
+  const double inner = (r.outer_radius - r.inner_radius) * elementary::hypot(a.second, b.second);
+  return tip_sag(r, a, b) / cosine + inner / 8.0;
+}
+
 motion::WallRadii wall(const TorchReach& r) { return {r.outer_radius, r.inner_radius}; }
 motion::TorchLean lean(const TorchPlace& p) { return {p.phi, p.z, p.b, p.a}; }
 
@@ -107,12 +115,16 @@ std::optional<InnerPlace> inner_place(const TorchReach& reach, const TorchPlace&
 
 double metal_in_beam(const TorchReach& reach, const TorchPlace& at) {
   const double across = elementary::tan(at.a), along = elementary::tan(at.b);
+  if (at.on_flat)
+    return (reach.outer_radius - reach.inner_radius) *
+           std::sqrt(1.0 + squared(across) + squared(along));
   const auto d = depth(reach, across);
   return d ? d->h * std::sqrt(1.0 + squared(across) + squared(along)) : kInfinity;
 }
 
 double sag(const TorchReach& reach, const TorchPlace& from, const TorchPlace& to) {
   if (from.a == 0.0 && to.a == 0.0) return sag_in_plane(reach, from, to);
+  if (from.on_flat) return sag_on_flat(reach, from, to);
   return sag_in_space(reach, from, to);
 }
 

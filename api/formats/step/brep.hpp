@@ -11,7 +11,7 @@
 
 namespace tubecut::api {
 
-/// A closed solid by its boundary, of planes, cylinders and ruled patches. Lengths in mm.
+/// A closed solid by its boundary, of planes, cylinders, cones and ruled patches. Lengths in mm.
 struct Brep {
   using Points = std::vector<Eigen::Vector3d>;  // two of a line, four of a cubic
 
@@ -41,13 +41,19 @@ struct Brep {
     Eigen::Vector3d centre, axis, begins;
     double radius = 0.0;
   };
+  /// A cone that widens along `axis`, of this radius at `centre`; its parameter begins outside the
+  /// face.
+  struct Cone {
+    Eigen::Vector3d centre, axis, begins;
+    double radius = 0.0, half = 0.0;  // half: rad, between axis and side
+  };
   /// Ruled between two curves with as many points.
   struct Patch {
     Points inner, outer;
   };
   struct Face {
     std::string name;
-    std::variant<Plane, Cylinder, Patch, Bore> surface;
+    std::variant<Plane, Cylinder, Patch, Bore, Cone> surface;
     bool same = true;  // the surface's own normal points out of the solid
     bool cut = false;  // else a wall of the tube
     std::vector<Loop> loops;

@@ -88,6 +88,67 @@ class Adder {
     return out;
   }
 
+  /// The strokes are those of its circle outside.
+  CutoutBorder add_cone(int face, const std::string& name, const cutout::Cone& cone,
+                        const cutout::Laying& laying) {
+    struct Level {
+      double radius, depth;
+      std::vector<std::size_t> circle = {};  // its edges
+      std::size_t first = 0;                 // of its vertices
+    };
+    const double wall = laying.wall();
+    std::vector<Level> levels{{0.5 * cone.diameter, 0.0}};
+    if (cutout::cone_wall(laying, cone) == cutout::ConeWall::landed && cone.depth() < wall)
+      levels.push_back({0.5 * cone.hole, cone.depth()});
+    levels.push_back(
+        {std::max(0.5 * cone.hole, cutout::cone_radius(laying, cone, 0.0, false)), wall});
+    const auto n = strokes_.size();
+    for (auto& level : levels) {
+      const Vector3d down = level.depth / wall * inwards_;
+      const double share = level.radius / (0.5 * cone.diameter);
+      level.first = solid_.vertices.size();
+      for (const auto& stroke : strokes_) solid_.vertices.push_back(at(share * stroke.from) + down);
+      for (std::size_t i = 0; i < n; ++i) {
+        auto stroke = strokes_[i];
+        stroke.from *= share;
+        stroke.radius = level.radius;
+        level.circle.push_back(add_along(stroke, level.first + i, level.first + (i + 1) % n, down));
+      }
+    }
+    CutoutBorder out{.face = face, .outside = {}, .bore = {}};
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+      const auto &upper = levels[k], &lower = levels[k + 1];
+      std::vector<std::size_t> sides;
+      for (std::size_t i = 0; i < n; ++i)
+        sides.push_back(add_edge({.from = upper.first + i, .to = lower.first + i, .curve = {}}));
+      for (std::size_t i = 0; i < n; ++i) {
+        auto stroke = strokes_[i];
+        stroke.radius = lower.radius;
+        const Brep::Cone side{.centre = anchor_ + lower.depth / wall * inwards_,
+                              .axis = normal_,
+                              .begins = (at(stroke.centre) - at(stroke.middle)).normalized(),
+                              .radius = lower.radius,
+                              .half = cone.half};
+        Brep::Face wall_face{.name = name,
+                             .surface = surface(stroke),
+                             .same = false,
+                             .cut = true,
+                             .loops = {{{upper.circle[i], false},
+                                        {sides[i], true},
+                                        {lower.circle[i], true},
+                                        {sides[(i + 1) % n], false}}}};
+        if (k == 0) wall_face.surface = side;
+        solid_.faces.push_back(std::move(wall_face));
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      out.outside.emplace_back(levels.front().circle[i], true);
+      out.bore.emplace_back(levels.back().circle[i], false);
+    }
+    std::ranges::reverse(out.bore);
+    return out;
+  }
+
  private:
   [[nodiscard]] Vector3d at(const Flat& p) const {
     return anchor_ + p.y() * round_ + p.x() * Vector3d::UnitZ();
@@ -109,8 +170,7 @@ class Adder {
                                  .radius = stroke.radius};
     return add_edge(std::move(edge));
   }
-  [[nodiscard]] std::variant<Brep::Plane, Brep::Cylinder, Brep::Patch, Brep::Bore> surface(
-      const Stroke& stroke) const {
+  [[nodiscard]] decltype(Brep::Face::surface) surface(const Stroke& stroke) const {
     if (stroke.radius > 0.0)
       return Brep::Bore{.centre = at(stroke.centre),
                         .axis = normal_,
@@ -131,6 +191,9 @@ class Adder {
 
 CutoutBorder add_cutout(const section::Wall& wall, const cutout::Layout& layout,
                         const cutout::Instance& one, const std::string& name, Brep& solid) {
+  const auto& mould = layout.mould_of(one);
+  if (mould.cone)
+    return Adder(wall, layout, one, solid).add_cone(one.face, name, *mould.cone, mould.laying);
   return Adder(wall, layout, one, solid).add(one.face, name);
 }
 

@@ -53,6 +53,7 @@ class Builder {
     const auto& layout = part_.cutouts;
     for (std::size_t i = 0; i < layout.instances.size(); ++i) {
       ask();
+      if (layout.instances[i].sunk) continue;
       cutouts_.push_back(
           add_cutout(wall_, layout, layout.instances[i], "cut-out " + cutout_tag(layout, i), out_));
     }

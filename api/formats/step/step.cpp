@@ -11,6 +11,7 @@
 #include "api/formats/step/step_solid.hpp"
 #include "api/formats/text.hpp"
 #include "api/stop.hpp"
+#include "core/base/elementary.hpp"
 #include "core/cutout/rows.hpp"
 #include "core/part/edge.hpp"
 #include "core/part/hole_volume.hpp"
@@ -20,10 +21,11 @@ namespace {
 
 constexpr double kFlat = 1e-9;  // mm: a cut square to the axis
 
-WallCurve curve_of(const bevel::CutWall& wall, std::vector<bool> corners, const Caption& caption) {
-  if (caption.view == "straight") return WallCurve::straight(wall);
+WallCurve curve_of(const bevel::CutWall& wall, std::vector<bool> corners, const Caption& caption,
+                   const WallCurve::EdgePlanes& planes = {}) {
+  if (caption.view == "straight") return WallCurve::straight(wall, planes);
   corners.resize(wall.gaps(), false);
-  return WallCurve::smooth(wall, corners);
+  return WallCurve::smooth(wall, corners, planes);
 }
 
 TubeCut end_cut(TubeCut::Kind kind, const bevel::TableSpec& spec, const bevel::Table& table,
@@ -50,12 +52,39 @@ TubeCut hole_cut(const joint::Target& tube, const bevel::Hole& hole, std::string
   return {TubeCut::Kind::hole, std::move(name), curve_of(wall, {}, caption)};
 }
 
+constexpr double kCloseRows = 1e-3;  // mm
+
+/// A cone's mould by close rows: lines across its wall are those of the cone and of its circle.
+WallCurve cone_curve(const joint::Target& tube, const cutout::Mould& mould, double turn, double z,
+                     const Caption& caption) {
+  ask();
+  const auto& cone = *mould.cone;
+  auto rows = cutout::rows(mould, {.tolerance = kCloseRows}).value();
+  const double met = tube.outer_radius - cone.depth();
+  std::vector<double> land_phi, land_z;
+  for (std::size_t i = 0; i < rows.phi.size(); ++i) {
+    const auto w =
+        elementary::sincos(kTwoPi * static_cast<double>(i) / static_cast<double>(rows.phi.size()));
+    land_phi.push_back(turn + elementary::atan2(0.5 * cone.hole * w.sin, met));
+    land_z.push_back(z + 0.5 * cone.hole * w.cos);
+    for (auto* phi : {&rows.phi, &rows.phi_inner}) (*phi)[i] += turn;
+    for (auto* at : {&rows.z, &rows.z_inner}) (*at)[i] += z;
+  }
+  bevel::CutWall wall{.edges = {{tube.inner_radius(), rows.phi_inner, rows.z_inner},
+                                {tube.outer_radius, rows.phi, rows.z}},
+                      .turn = 0.0};
+  if (cutout::cone_wall(mould.laying, cone) == cutout::ConeWall::whole)
+    return curve_of(wall, {}, caption);
+  wall.edges.insert(wall.edges.begin() + 1, {met, land_phi, land_z});
+  return curve_of(wall, {}, caption, {{}, WallCurve::EdgePlane{turn, met}, {}});
+}
+
 /// A cut-out's mould by close rows, with a corner at every end of its segments.
 WallCurve cutout_curve(const joint::Target& tube, const cutout::Mould& mould, double turn, double z,
                        const Caption& caption) {
   ask();
-  constexpr double kClose = 1e-3, kAtCorner = 1e-9;  // mm
-  auto rows = cutout::rows(mould.laying, mould.chain, {.tolerance = kClose}).value();
+  constexpr double kAtCorner = 1e-9;  // mm
+  auto rows = cutout::rows(mould, {.tolerance = kCloseRows}).value();
   std::vector<bool> corners;
   for (std::size_t i = 0; i < rows.phi.size(); ++i)
     corners.push_back(
@@ -173,8 +202,13 @@ TubeSolid part_solid(const part::PartSpec& spec, const part::Part& part, const C
   const auto& layout = part.cutouts;
   for (std::size_t i = 0; i < layout.instances.size(); ++i) {
     const auto& one = layout.instances[i];
+    const auto& mould = layout.mould_of(one);
+    if (one.sunk) continue;
+    if (mould.cone && cutout::cone_wall(mould.laying, *mould.cone) == cutout::ConeWall::mixed)
+      refuse("the land of countersink " + one.name + " does not go all round");
     cuts.push_back({TubeCut::Kind::hole, "cut-out " + cutout_tag(layout, i),
-                    cutout_curve(tube, layout.mould_of(one), one.phi, one.z, caption)});
+                    mould.cone ? cone_curve(tube, mould, one.phi, one.z, caption)
+                               : cutout_curve(tube, mould, one.phi, one.z, caption)});
   }
   return tube_solid(tube.inner_radius(), tube.outer_radius, cuts);
 }

@@ -81,6 +81,11 @@ class Printer {
                             step_ref(axes(of.centre, of.axis, of.begins)) + "," +
                             step_real(of.radius, kRadiusDigits) + ")");
   }
+  Id surface(const Brep::Cone& of) {
+    return entities_.shared("CONICAL_SURFACE(''," + step_ref(axes(of.centre, of.axis, of.begins)) +
+                            "," + step_real(of.radius, kRadiusDigits) + "," +
+                            step_real(of.half, kRadiusDigits) + ")");
+  }
   Id surface(const Brep::Plane& plane) {
     Eigen::Vector3d across = Eigen::Vector3d::Unit(0);
     if (std::abs(plane.normal.x()) > 0.9) across = Eigen::Vector3d::Unit(1);

@@ -35,8 +35,17 @@ constexpr double kKnotDistance = 3e-4;  // mm along the rows: nearer places are 
 
 }  // namespace
 
-WallCurve::WallCurve(const bevel::CutWall& wall) : turn_(wall.turn) {
-  for (const auto& edge : wall.edges) edges_.push_back({edge.radius, 0.0, {}, {}, {}, {}, {}});
+WallCurve::WallCurve(const bevel::CutWall& wall, const EdgePlanes& planes) : turn_(wall.turn) {
+  for (const auto& edge : wall.edges) {
+    const auto k = edges_.size();
+    edges_.push_back({.radius = edge.radius,
+                      .plane = k < planes.size() ? planes[k] : std::nullopt,
+                      .row = {},
+                      .gap = {},
+                      .knot = {},
+                      .arriving = {},
+                      .leaving = {}});
+  }
   for (std::size_t i = 0; i < wall.gaps(); ++i) {
     double moved = i == 0 ? 1.0 : 0.0;
     for (std::size_t k = 0; k < edges_.size(); ++k) {
@@ -79,16 +88,17 @@ Vector2d WallCurve::laid_gap(const Edge& edge, std::size_t row) const {
   return edge.knot[next] - edge.knot[row] + Vector2d(next == 0 ? turn_ : 0.0, 0.0);
 }
 
-WallCurve WallCurve::straight(const bevel::CutWall& wall) {
-  WallCurve out(wall);
+WallCurve WallCurve::straight(const bevel::CutWall& wall, const EdgePlanes& planes) {
+  WallCurve out(wall, planes);
   out.off_flat_ = kOffFlat;
   out.find_lines();
   out.lay(true);
   return out;
 }
 
-WallCurve WallCurve::smooth(const bevel::CutWall& wall, const std::vector<bool>& corners) {
-  WallCurve out(wall);
+WallCurve WallCurve::smooth(const bevel::CutWall& wall, const std::vector<bool>& corners,
+                            const EdgePlanes& planes) {
+  WallCurve out(wall, planes);
   out.off_rows_ = std::min(kOffRowsThrough, kOffRadiusThrough * out.edges_.back().radius);
   if (corners.size() == out.rows()) out.corner_ = corners;
   out.find_kinks();
@@ -266,8 +276,19 @@ void WallCurve::lay_in_space(std::vector<Node>& nodes) const {
     for (std::size_t i = 0; i < nodes.size(); ++i) phi[i] = nodes[i].edges[k].flat.at.x();
     elementary::sincos(phi, sin, cos);
     const double r = edges_[k].radius;
+    const auto& plane = edges_[k].plane;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       auto& [flat, space] = nodes[i].edges[k];
+      if (plane) {
+        const auto turn = elementary::sincos(plane->phi);
+        const double away = elementary::tan(flat.at.x() - plane->phi);
+        const double rate = plane->distance * (1.0 + away * away);
+        const auto along = [&](const Vector2d& by) {
+          return Vector3d(-turn.sin * rate * by.x(), turn.cos * rate * by.x(), by.y());
+        };
+        space = {edges_[k].in_space(flat.at), along(flat.before), along(flat.beyond)};
+        continue;
+      }
       const auto along = [&](const Vector2d& rate) {
         return Vector3d(-r * sin[i] * rate.x(), r * cos[i] * rate.x(), rate.y());
       };

@@ -19,15 +19,24 @@ namespace tubecut::api {
 /// rows where an edge turns far more than at the adjacent ones.
 class WallCurve {
  public:
+  /// A plane that an edge lies in instead of on its cylinder: `distance` from the tube's axis,
+  /// whose normal points to phi.
+  struct EdgePlane {
+    double phi = 0.0, distance = 0.0;
+  };
+  using EdgePlanes = std::vector<std::optional<EdgePlane>>;  // of each edge, or empty
+
   /// Row and fraction of the distance to the next.
   struct RowPosition {
     std::size_t row = 0;
     double share = 0.0;
   };
 
-  [[nodiscard]] static WallCurve straight(const bevel::CutWall& wall);
+  [[nodiscard]] static WallCurve straight(const bevel::CutWall& wall,
+                                          const EdgePlanes& planes = {});
   [[nodiscard]] static WallCurve smooth(const bevel::CutWall& wall,
-                                        const std::vector<bool>& corners);
+                                        const std::vector<bool>& corners,
+                                        const EdgePlanes& planes = {});
 
   [[nodiscard]] std::size_t rows() const { return length_.size(); }
   [[nodiscard]] std::size_t edges() const { return edges_.size(); }
@@ -48,10 +57,16 @@ class WallCurve {
   struct Edge {
     double radius = 0.0;
     double widest = 0.0;                             // rad, of a span
+    std::optional<EdgePlane> plane = {};             // that it lies in
     std::vector<Eigen::Vector2d> row;                // as given
     std::vector<Eigen::Vector2d> gap;                // from each to the next
     std::vector<Eigen::Vector2d> knot;               // position of the curve there
     std::vector<Eigen::Vector2d> arriving, leaving;  // its slopes there, per mm along the rows
+
+    /// The place of a (phi, z) of it.
+    [[nodiscard]] Eigen::Vector3d in_space(const Eigen::Vector2d& flat) const;
+    /// How far a place is off its cylinder or plane.
+    [[nodiscard]] double off(const Eigen::Vector3d& place) const;
   };
   /// Position of an edge, in (phi, z) or in space, and its slopes on both sides, per mm along the
   /// rows.
@@ -83,7 +98,7 @@ class WallCurve {
     Flat flat;
   };
 
-  explicit WallCurve(const bevel::CutWall& wall);
+  WallCurve(const bevel::CutWall& wall, const EdgePlanes& planes);
   struct Bend;
   [[nodiscard]] std::vector<Bend> bends(const Edge& edge) const;
   void find_lines();

@@ -21,11 +21,6 @@ constexpr double kUneven = 6.0;  // ratio of a span to an adjacent one
 constexpr double kOffAlone = 1e-4;
 constexpr int kHalvings = 8;  // each takes a sixteenth of that distance
 
-Vector3d on_wall(double radius, const Vector2d& p) {
-  const auto [sin, cos] = elementary::sincos(p.x());
-  return {radius * cos, radius * sin, p.y()};
-}
-
 /// Returns the factor from a third of an arc's parameter to the handle of the nearest cubic.
 double handle(double dphi) {
   if (std::abs(dphi) < 1e-4) return 1.0 / 3.0;
@@ -68,6 +63,18 @@ struct WallCurve::Span {
   bool full = false, station = false;  // at its end
 };
 
+Vector3d WallCurve::Edge::in_space(const Vector2d& flat) const {
+  const auto [sin, cos] = elementary::sincos(flat.x());
+  const double r = plane ? plane->distance / elementary::cos(flat.x() - plane->phi) : radius;
+  return {r * cos, r * sin, flat.y()};
+}
+
+double WallCurve::Edge::off(const Vector3d& place) const {
+  if (!plane) return place.head<2>().norm() - radius;
+  const auto [sin, cos] = elementary::sincos(plane->phi);
+  return cos * place.x() + sin * place.y() - plane->distance;
+}
+
 double WallCurve::turned(std::size_t edge, const Node& from, const Node& to) const {
   return to.edges[edge].flat.at.x() - from.edges[edge].flat.at.x() + (to.turn - from.turn) * turn_;
 }
@@ -104,10 +111,9 @@ bool WallCurve::fits(const std::vector<Node>& nodes, std::size_t from, std::size
     const auto both = cubics(k, a, b);
     for (const double u : {0.25, 0.5, 0.75}) {
       const auto p = value(both.space, u);
-      const double off = p.head<2>().norm() - edges_[k].radius;
-      if (std::abs(off) > off_cylinder_) return false;
+      if (std::abs(edges_[k].off(p)) > off_cylinder_) return false;
       if (!off_flat_) continue;
-      const auto twin = on_wall(edges_[k].radius, value(both.flat, u));
+      const auto twin = edges_[k].in_space(value(both.flat, u));
       if ((p - twin).norm() > *off_flat_) return false;
     }
     Pace pace;
@@ -143,8 +149,7 @@ bool WallCurve::on_cylinders(const Node& from, const Node& to) const {
   for (std::size_t k = 0; k < edges_.size(); ++k) {
     const auto both = cubics(k, from, to);
     for (const double u : {0.25, 0.5, 0.75}) {
-      const double off = value(both.space, u).head<2>().norm() - edges_[k].radius;
-      if (std::abs(off) > kOffAlone) return false;
+      if (std::abs(edges_[k].off(value(both.space, u))) > kOffAlone) return false;
     }
   }
   return true;

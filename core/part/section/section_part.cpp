@@ -150,7 +150,9 @@ cutout::Ground cutout_ground(const SectionPartSpec& spec, const SectionPart& par
           .finish_long = highest(part.finish.table),
           .finish_work = work + spec.length,
           .kerf = spec.cutouts.kerf,
-          .tolerance = std::min(spec.cutouts.tolerance, kHoleTolerance)};
+          .tolerance = std::min(spec.cutouts.tolerance, kHoleTolerance),
+          .most_lean = spec.cutouts.most_lean,
+          .most_swing = spec.cutouts.most_swing};
 }
 
 Result<SectionPart> section_part(const SectionPartSpec& spec) {

@@ -24,6 +24,12 @@ std::string in_words(const cutout::Spec& spec) {
   return spec.turn == 0.0 ? out : out + " at " + degrees(spec.turn);
 }
 
+/// "sunk to 16 at 90°, 3.5 deep".
+std::string in_words(const cutout::Cone& cone) {
+  return "sunk to " + number(cone.diameter, Unit::mm) + " at " + degrees(2.0 * cone.half) + ", " +
+         number(cone.depth(), Unit::mm) + " deep";
+}
+
 std::string in_words(cutout::Lay lay) {
   switch (lay) {
     case cutout::Lay::developed:
@@ -91,8 +97,8 @@ void draw_cutout_rows(OrderSheets& sheets, const std::vector<cutout::Spec>& spec
       canvas.label({OrderSheets::kLeft + x, top - y}, text, {.height = 2.3, .bold = bold}, room);
     };
     put(0.0, 2.9, asked.id + (mould.laying.far() ? ", far" : ""), 21.0, true);
-    put(0.0, 5.7, in_words(mould.laying.lay()), 64.0);
-    put(22.0, 2.9, in_words(asked), 43.0);
+    put(0.0, 5.7, mould.cone ? "after its circle" : in_words(mould.laying.lay()), 64.0);
+    put(22.0, 2.9, mould.cone ? in_words(*mould.cone) : in_words(asked), 43.0);
     put(66.0, 2.9, number(one.z, Unit::mm) + "; " + number(longest - one.z, Unit::mm), 33.0);
     put(100.0, 2.9, position(one), 15.0);
     put(116.0, 2.9, in_words(asked.pattern), 45.0);

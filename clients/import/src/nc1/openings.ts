@@ -218,8 +218,8 @@ function stated(to: Openings, block: Block, face: Face): boolean {
     return false;
   }
   const {at} = spotOf(to, face, found.x, found.y);
-  const {wall, tilt} = found;
-  const more = {...(wall === 'normal' ? {} : {wall}), ...(tilt === 'axial' ? {} : {tilt})};
+  const {wall, tilt, countersink} = found;
+  const more = {...(wall === 'normal' ? {} : {wall}), ...(tilt === 'axial' ? {} : {tilt}), ...(countersink ? {countersink} : {})};
   add(to, block, block.line, {id: to.name(title.name, `${block.code} ${to.cutouts.length + 1}`), shape: found.shape, at, ...more});
   return true;
 }

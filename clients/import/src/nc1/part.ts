@@ -19,12 +19,17 @@ export type CutoutShape =
 
 /** Round the tube: the angle on a round tube, or a face of a rectangular one. */
 export type Round = {girth_mm: number} | {phi_deg: number} | {face: number; offset_mm: number};
+export interface Countersink {
+  diameter_mm: number;
+  angle_deg: number;
+}
 export interface Cutout {
   id: string;
   shape: CutoutShape;
   at: {z_mm: number} & Round;
   wall?: string;
   tilt?: string;
+  countersink?: Countersink;
 }
 
 export interface PlaneEnd {

@@ -1,5 +1,5 @@
 import {decimal} from '../units.js';
-import type {CutoutShape, Piece, Point} from './part.js';
+import type {Countersink, CutoutShape, Piece, Point} from './part.js';
 
 /** The end that our own files state in a comment; x as in the blocks, the normal in the part's frame. */
 export interface StatedEnd {
@@ -22,6 +22,7 @@ export interface StatedShape {
   shape: CutoutShape;
   wall: string;
   tilt: string;
+  countersink?: Countersink;
   x: number;
   y: number;
 }
@@ -147,11 +148,13 @@ export function statedShape(comments: string[]): StatedShape | undefined {
   if (at < 0) return undefined;
   const text = (comments[at] as string).slice('shape: '.length);
   const shape = shapeOf(text, comments.slice(at + 1));
-  const found = valuesOf(text, ['wall', 'tilt', 'at x', 'y']);
+  const found = valuesOf(text, ['wall', 'tilt', 'at x', 'y', 'countersink', 'sunk at']);
   const [wall, tilt] = [found.get('wall'), found.get('tilt')];
   const [x, y] = [decimal(found.get('at x')), decimal(found.get('y'))];
   if (!wall || !['normal', 'through', 'developed'].includes(wall) || !tilt || !['axial', 'free', 'none'].includes(tilt)) return undefined;
-  return shape && isWhole(shape) && Number.isFinite(x) && Number.isFinite(y) ? {shape, wall, tilt, x, y} : undefined;
+  const sink = found.has('countersink') ? {countersink: {diameter_mm: decimal(found.get('countersink')), angle_deg: decimal(found.get('sunk at'))}} : {};
+  const out = shape && {shape, wall, tilt, ...sink, x, y};
+  return isWhole(out) ? out : undefined;
 }
 
 /** A text as its comment states it. */

@@ -65,8 +65,11 @@ export function drawnPart(seed, number, plain = false) {
       ...(next() < 0.2 ? {opposite: true} : {})};
     const wall = pick(next, ['normal', 'developed', 'through']);
     const tilt = isRound && !plain && wall !== 'developed' && next() < 0.3 ? {tilt: 'free'} : {};
+    const shape = shapeOf(next, size);
+    const sunk = !plain && shape.kind === 'circle' && wall !== 'developed';
+    const countersink = sunk ? {countersink: {diameter_mm: round3(1.3 * size + 1), angle_deg: pick(next, [60, 90])}} : {};
     const pattern = next() < 0.3 ? {pattern: {kind: 'linear', count: 2, pitch_mm: round3(between(next, 80, 110))}} : {};
-    return {id: `${pick(next, ['bolt', 'slot far', 'door, big', 'Stütze'])} ${i}`, shape: shapeOf(next, size), at, wall, ...tilt, ...pattern};
+    return {id: `${pick(next, ['bolt', 'slot far', 'door, big', 'Stütze'])} ${i}`, shape, at, wall, ...tilt, ...pattern, ...countersink};
   });
   const flush = plain && isRound;
   const end = () => (plain && !isRound ? {square_at_mm: round3(between(next, -20, 20))} : endOf(next, flush));
