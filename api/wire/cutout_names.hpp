@@ -20,6 +20,9 @@ inline constexpr auto kNames<cutout::Lay> =
                                         {"prism", cutout::Lay::prism},
                                         {"square_from_bore", cutout::Lay::bored},
                                         {"flat", cutout::Lay::flat}});
+template <>
+inline constexpr auto kNames<cutout::Slit::Pierce> = std::to_array<Option<cutout::Slit::Pierce>>(
+    {{"middle", cutout::Slit::Pierce::middle}, {"end", cutout::Slit::Pierce::end}});
 /// The wall of a cut-out's cone.
 inline constexpr std::string_view kCountersink = "countersink";
 template <>

@@ -23,6 +23,7 @@ struct Chains {
   Result<Chain> operator()(const Rectangle& r) const {
     return rectangle(r.along, r.round, r.radius);
   }
+  Result<Chain> operator()(const Slit& s) const { return slit(s.length, s.width); }
   Result<Chain> operator()(const Contour& c) const {
     return under("shape", drawn(c.start, c.pieces, c.mirrored));
   }
@@ -33,6 +34,7 @@ struct LeastSize {
   std::optional<double> operator()(const Slot& s) const { return s.width; }
   std::optional<double> operator()(const Rectangle& r) const { return std::min(r.along, r.round); }
   std::optional<double> operator()(const Contour&) const { return {}; }
+  std::optional<double> operator()(const Slit&) const { return {}; }
 };
 
 /// A prism's wall leans across; the torch's range says how far it may.
@@ -60,26 +62,37 @@ Cone cone_of(const Spec& spec) {
 
 Laying laying_of(const Spec& spec, const Ground& ground, bool far) {
   if (ground.section) return {ground.section->section(), far};
+  // Along the tube all its walls are one, and check_sizes refuses any other that does not lean.
+  if (std::holds_alternative<Slit>(spec.shape)) return {ground.tube, Lay::prism, far};
   return {ground.tube, lay_of(spec.wall, spec.tilt), far};
+}
+
+std::optional<Mould::Line> slit_of(const Spec& spec) {
+  const auto* one = std::get_if<Slit>(&spec.shape);
+  if (one == nullptr) return {};
+  return Mould::Line{slit_line(*one, spec.turn), one->pierce};
 }
 
 /// Finds the mould of one side, or makes it.
 Result<std::size_t> mould_of(const Spec& spec, const Chain& chain, const Laying& laying,
                              const Ground& ground, std::vector<Mould>& all) {
+  const auto line = slit_of(spec);
   for (std::size_t i = 0; i < all.size(); ++i)
     if (!all[i].cone && all[i].laying.lay() == laying.lay() &&
         all[i].laying.far() == laying.far() && all[i].as_cut == spec.as_cut &&
-        std::ranges::equal(all[i].chain, chain, alike))
+        all[i].slit == line && std::ranges::equal(all[i].chain, chain, alike))
       return i;
   const Cutting cutting{.kerf = ground.kerf, .tolerance = ground.tolerance, .as_cut = spec.as_cut};
-  TRY(auto made, under("shape", rows(laying, chain, cutting)));
+  TRY(auto made, under("shape", line ? slit_rows(laying, chain, line->line, cutting)
+                                     : rows(laying, chain, cutting)));
   TRY(check_lean(made, ground));
   all.push_back({.laying = laying,
                  .chain = chain,
                  .as_cut = spec.as_cut,
                  .rows = std::move(made),
                  .taken = taken(laying, chain),
-                 .centre = deep_in(spec, chain)});
+                 .centre = deep_in(spec, chain),
+                 .slit = line});
   return all.size() - 1;
 }
 
@@ -187,8 +200,8 @@ Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground) {
     count += many;
     auto moulds = moulds_of(spec, ground, out.moulds);
     auto all = steps(spec.pattern);
-    if (!moulds) refuse(k, std::move(moulds).error());
-    if (!all) refuse(k, std::move(all).error());
+    if (!moulds) refuse(k, moulds.error());
+    if (!all) refuse(k, all.error());
     if (!moulds || !all) continue;
     const auto first = out.instances.size();
     const double z = height_of(spec.at, ground), phi = spec.at.phi + (spec.at.opposite ? kPi : 0.0);

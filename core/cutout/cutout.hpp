@@ -4,30 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "core/base/variant.hpp"
 #include "core/bevel/hole/hole.hpp"
 #include "core/cutout/cone.hpp"
 #include "core/cutout/laying.hpp"
 #include "core/cutout/pattern.hpp"
+#include "core/cutout/shape.hpp"
 
 namespace tubecut::cutout {
-
-struct Circle {
-  double diameter = 0.0;
-};
-struct Slot {
-  double length = 0.0, width = 0.0;  // over all
-};
-struct Rectangle {
-  double along = 0.0, round = 0.0, radius = 0.0;
-};
-struct Contour {
-  Flat start = Flat::Zero();
-  std::vector<DrawnSegment> pieces;
-  bool mirrored = false;
-  bool of_file = false;  // read from a DXF text: errors state places of the drawing, not pieces
-};
-using Shape = Variant<Circle, Slot, Rectangle, Contour>;
 
 enum class Wall {
   normal,     // straight along the anchor's normal, through the near wall
@@ -93,6 +76,13 @@ struct Mould {
   Taken taken;
   Flat centre = Flat::Zero();     // deep in the scrap
   std::optional<Cone> cone = {};  // of a countersink; the chain is its circle that touches
+  /// Of a slit: the torch's line and where it pierces; its chain is what the beam takes.
+  struct Line {
+    SlitLine line;
+    Slit::Pierce pierce = Slit::Pierce::middle;
+    [[nodiscard]] bool operator==(const Line&) const = default;
+  };
+  std::optional<Line> slit = {};
 };
 
 /// One cut-out of one wall, in the part's frame.

@@ -271,7 +271,27 @@ Result<bevel::Hole> rows(const Laying& laying, const Chain& chain, const Cutting
   return out;
 }
 
+Result<bevel::Hole> slit_rows(const Laying& laying, const Chain& chain, const SlitLine& line,
+                              const Cutting& cutting) {
+  auto edge_only = cutting;
+  edge_only.kerf = 0.0;
+  TRY(auto out, rows(laying, chain, edge_only));
+  for (std::size_t i = 0; i < out.z.size(); ++i) {
+    // The torch's place is the edge's yet, from which its own in the plane follows.
+    const double turn = laying.phase(out.torch_phi[i]);
+    const double b = laying.outer() * (laying.lay() == Lay::prism ? elementary::sin(turn) : turn);
+    const auto at = line.nearest({out.torch_z[i], b});
+    const double outer = laying.turn(at.y(), laying.outer());
+    out.torch_phi[i] = laying.phase(outer);
+    out.torch_phi_inner[i] = laying.phase(laying.turn(at.y(), laying.inner()));
+    out.torch_z[i] = out.torch_z_inner[i] = at.x();
+    if (laying.lay() == Lay::prism) out.a[i] = laying.far() ? outer : -outer;
+  }
+  return out;
+}
+
 Result<bevel::Hole> rows(const Mould& mould, const Cutting& cutting) {
+  if (mould.slit) return slit_rows(mould.laying, mould.chain, mould.slit->line, cutting);
   if (mould.cone) return cone_rows(mould.laying, *mould.cone, cutting);
   return rows(mould.laying, mould.chain, cutting);
 }

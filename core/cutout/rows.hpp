@@ -29,6 +29,12 @@ struct Cutting {
 [[nodiscard]] Result<bevel::Hole> rows(const Laying& laying, const Chain& chain,
                                        const Cutting& cutting);
 
+/// The same of a slit: `chain` is what the beam takes, and the axis runs on its line, which lies
+/// level with each place of the edge.
+struct SlitLine;
+[[nodiscard]] Result<bevel::Hole> slit_rows(const Laying& laying, const Chain& chain,
+                                            const SlitLine& line, const Cutting& cutting);
+
 /// The same of a mould, which may be a cone; that one has no errors.
 struct Mould;
 [[nodiscard]] Result<bevel::Hole> rows(const Mould& mould, const Cutting& cutting);

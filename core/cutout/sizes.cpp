@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/elementary.hpp"
 #include "core/base/rounding.hpp"
 #include "core/cutout/rows.hpp"
 
@@ -93,6 +94,27 @@ struct Sizes {
     return out;
   }
   std::vector<Issue> operator()(const Contour&) const { return {}; }
+  std::vector<Issue> operator()(const Slit& s) const {
+    constexpr double kAlong = 1e-12;  // of its length
+    if (!(s.width > 0.0))
+      return {{.code = ErrorCode::out_of_range,
+               .member = "shape",
+               .got = s.width,
+               .limit = 0.0,
+               .unit = "mm",
+               .hint = "a slit is as wide as the kerf, which is more than the limit"}};
+    const bool leans = lay_of(spec.wall, spec.tilt) == Lay::prism;
+    if (laying.lay() == Lay::flat || leans || std::abs(elementary::sin(spec.turn)) <= kAlong)
+      return {};
+    return {{.code = ErrorCode::unsupported_combination,
+             .member = "shape/angle",
+             .got = spec.turn * kDegPerRad,
+             .limit = 0.0,
+             .unit = "deg",
+             .hint =
+                 "round the tube the beam takes the same width at every depth only if it leans: "
+                 "wall normal or through with tilt free"}};
+  }
 };
 
 /// How deep a place lies within the chain, mm; below 0 outside.
@@ -112,6 +134,7 @@ struct Middle {
     return best;
   }
   Flat operator()(const Rectangle&) const { return Flat::Zero(); }
+  Flat operator()(const Slit&) const { return Flat::Zero(); }
   /// By a grid that grows finer about its best.
   Flat operator()(const Contour&) const {
     constexpr int kPlaces = 16, kRounds = 4;

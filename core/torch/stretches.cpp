@@ -217,7 +217,7 @@ class TabbedWays {
 }  // namespace
 
 bool holds(const Tabs& tabs, const TorchCut& cut, bool last) {
-  if (cut.mark) return false;
+  if (cut.mark || cut.open) return false;
   const bool hole = cut.path.scrap == motion::Scrap::inside;
   switch (tabs.of) {
     case Tabs::Of::last:

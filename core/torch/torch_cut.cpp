@@ -78,6 +78,25 @@ void stand_still(motion::CutPath& path) {
   }
 }
 
+/// Puts the torch's way along a slit into a path.
+void along_slit(const cutout::Mould& mould, const cutout::Instance& one, motion::CutPath& path) {
+  constexpr double kApart = 1.0;  // mm
+  const auto& laying = mould.laying;
+  path.closed = false;
+  for (auto* column : {&path.phi, &path.z, &path.b, &path.a}) column->clear();
+  bool leans = false;
+  for (const auto& p : mould.slit->line.way(mould.slit->pierce, kApart)) {
+    const double turn = laying.turn(p.y(), laying.outer());
+    path.phi.push_back(one.phi + laying.phase(turn));
+    path.z.push_back(one.z + p.x());
+    path.b.push_back(0.0);
+    const bool prism = laying.lay() == cutout::Lay::prism;
+    path.a.push_back(!prism ? 0.0 : laying.far() ? turn : -turn);
+    leans = leans || path.a.back() != 0.0;
+  }
+  if (!leans) path.a.clear();
+}
+
 /// `tube`: the path without points.
 TorchCut cutout_cut(const cutout::Layout& layout, std::size_t index, double kerf,
                     motion::CutPath tube) {
@@ -95,6 +114,11 @@ TorchCut cutout_cut(const cutout::Layout& layout, std::size_t index, double kerf
   if (std::ranges::any_of(rows.a, [](double a) { return a != 0.0; })) out.path.a = rows.a;
   for (auto* column : {&out.path.phi, &out.path.z, &out.path.b, &out.path.a})
     if (!column->empty()) column->push_back(column->front());
+  if (mould.slit) {
+    out.open = true;
+    along_slit(mould, one, out.path);
+    return out;
+  }
   stand_still(out.path);
   const double turn = mould.laying.turn(mould.centre.y(), mould.laying.outer());
   out.centre = {one.phi + mould.laying.phase(turn), one.z + mould.centre.x()};
@@ -263,7 +287,7 @@ double from_edge(const motion::CutWithLead& way, double outer_radius) {
 
 Result<TorchWay> torch_way(const TorchCut& cut, const Approach& approach) {
   const bool as_given = approach.start.at == motion::Start::At::first_point;
-  if (!approach.lead && as_given) return TorchWay{once_round(cut.path), 0.0};
+  if (cut.open || (!approach.lead && as_given)) return TorchWay{once_round(cut.path), 0.0};
   const auto path = motion::without_repeats(cut.path);
   TRY(auto whole, motion::track(path));
   TRY(const auto from,

@@ -27,6 +27,7 @@ struct TorchCut {
   double land = 0.0;     // mm: its bevel begins at a land of this height, which it does not cut
   bool of_land = false;  // true for the pass that cuts the land
   bool mark = false;
+  bool open = false;     // a slit: from its pierce to its end, without leads
   bool on_flat = false;  // a cut-out of a section: the torch keeps the normal of its face
   /// Of a cut-out: deep in its scrap, rad and mm on the outside.
   struct Deep {

@@ -11,7 +11,7 @@
 namespace tubecut::torch {
 
 Approach approach(const TorchCut& cut, const Setup& setup) {
-  if (cut.mark) return {};
+  if (cut.mark || cut.open) return {};
   Approach out{.lead = setup.lead};
   if (setup.lead) out.start = {.at = motion::Start::At::automatic, .seam = Angle{}};
   if (setup.start && cut.path.scrap != motion::Scrap::inside)

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/angle.hpp"
@@ -266,6 +267,61 @@ TEST(Cutouts, AThousandAndMoreAreOneShapeMoved) {
   const double round = 57.15 * 11.25 * kRadPerDeg;
   EXPECT_NEAR(number(made.body, "result/cutout_report/web/width_mm"),
               std::min(10.0, std::hypot(5.0, round * 55.15 / 57.15)) - 6.0, 0.2);
+}
+
+/// A slit is answered as the slot that the beam takes, and is in every file; its program has one
+/// pierce and no lead.
+TEST(Cutouts, ASlitIsOnePassOfTheBeam) {
+  const auto body =
+      part_with(list(R"({"id": "s", "shape": {"kind": "slit", "length_mm": 40, "pierce": "end"},
+                         "at": {"z_mm": 200, "phi_deg": 40}})"));
+  const auto made = post(kParts, body);
+  ASSERT_FALSE(made.outcome.error) << made.outcome.body.substr(0, 1500);
+  const auto slot = post(kParts, part_with(list(R"({"id": "s", "at": {"z_mm": 200, "phi_deg": 40},
+          "shape": {"kind": "slot", "length_mm": 41.5, "width_mm": 1.5}, "tilt": "free"})")));
+  ASSERT_TRUE(slot.outcome.error);  // no beam cuts round it
+  EXPECT_NEAR(number(made.body, "result/cutouts/0/instances/0/z_to_mm"), 220.75, 1e-9);
+  const double torch_to =
+      std::ranges::max(numbers(made.body, "result/cutouts/0/points/torch_z_mm"));
+  EXPECT_NEAR(torch_to, 220.0, 1e-9);
+  for (const double a : numbers(made.body, "result/cutouts/0/points/a_deg")) EXPECT_EQ(a, 0.0);
+  const auto again = post(kParts, at(made.body, "request"));
+  EXPECT_EQ(text(made.body, "job/result_sha256"), text(again.body, "job/result_sha256"));
+  for (const char* query : {"format=dxf", "format=step", "format=svg", "format=csv"})
+    EXPECT_FALSE(post(kParts, api::dump(body), query).outcome.error) << query;
+  const auto nc1 = post(kParts, api::dump(body), "format=nc1").outcome.body;
+  EXPECT_NE(nc1.find("shape: slit 40; pierce end; kerf 1.5"), std::string::npos);
+  const auto program =
+      post(kParts, api::dump(body), "format=gcode&speed_mm_min=1200&lead_mm=3").outcome.body;
+  const auto cut = program.find("(cut: cut-out s)");
+  ASSERT_NE(cut, std::string::npos);
+  const auto moves = program.substr(cut, program.find("(cut: finish)") - cut);
+  EXPECT_NE(moves.find("G0 X180.00000"), std::string::npos) << moves.substr(0, 600);
+  EXPECT_NE(moves.find("G1 X220.00000"), std::string::npos);
+  EXPECT_NE(moves.find("a slit has no leads"), std::string::npos);
+}
+
+TEST(Cutouts, ASlitIsRefusedWhereOnePassDoesNotMakeIt) {
+  const auto refused = [](const char* rest, double kerf = 1.5) {
+    const auto answer =
+        post(kParts, with(part_with(list(R"({"id": "s", "at": {"z_mm": 200, "phi_deg": 0}, )" +
+                                         std::string(rest) + "}")),
+                          "kerf_mm", Json{kerf}));
+    EXPECT_TRUE(answer.outcome.error) << rest;
+    return text(answer.body, "errors/0/code") + " " + text(answer.body, "errors/0/pointer");
+  };
+  EXPECT_EQ(refused(R"("shape": {"kind": "slit", "length_mm": 40, "angle_deg": 90})"),
+            "unsupported_combination /cutouts/0/shape/angle_deg");
+  EXPECT_EQ(refused(R"("shape": {"kind": "slit", "length_mm": 40})", 0.0),
+            "out_of_range /cutouts/0/shape");
+  auto job = example("pulse-schedules/two-ends-and-four-holes-of-a-part.json");
+  job = with(std::move(job), "part",
+             part_with(list(R"({"id": "s", "shape": {"kind": "slit", "length_mm": 40},
+                               "at": {"z_mm": 200, "phi_deg": 40}})")));
+  const auto pulses = post("/v1/pulse-schedules", job);
+  ASSERT_TRUE(pulses.outcome.error);
+  EXPECT_NE(pulses.outcome.body.find("/part/cutouts/0/shape/kind"), std::string::npos)
+      << pulses.outcome.body.substr(0, 600);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-"""Countersinks in the files of drawn parts: the solid of STEP, the edges of DXF, the lines of NC1."""
+"""Countersinks in the files of drawn parts: the solid of STEP, the edges of DXF, the lines of NC1; and slits as solids."""
 
 import json
 import math
@@ -70,6 +70,18 @@ class Countersinks(FormatTest):
             for instance in cones[0]["instances"]:
                 tall = [line for line in edges if abs(max(p[2] for p in line) - instance["z_mm"] - reach / 2) < 1e-6]
                 self.assertEqual(len(tall), 1)
+
+    def test_slits_are_solids_with_the_answers_volume(self):
+        for body, _ in self.each():
+            round_tube, one = "outer_diameter_mm" in body["target"], body["cutouts"][0]
+            del one["countersink"]
+            one |= {"shape": {"kind": "slit", "length_mm": 20, "angle_deg": 50}, "tilt": "free"} if round_tube else {
+                "shape": {"kind": "slit", "length_mm": 20, "angle_deg": 50, "pierce": "end"}}
+            body["kerf_mm"] = 1.5
+            result = self.service.answer("parts", body)["result"]
+            solid = step_reader.Solid(step_reader.File(self.service.text("parts", body, "format=step").decode("ascii")))
+            self.assertEqual(step_reader.faults(solid, 1 + sum(len(group["instances"]) for group in result["cutouts"])), [])
+            self.assertAlmostEqual(step_volume.volume(solid) / result["lengths"]["volume_mm3"], 1, delta=1e-6)
 
     def test_nc1_states_each_and_bores_its_circle(self):
         for body, result in self.each():

@@ -116,11 +116,13 @@ double default_radius(const Common& common, const cutout::Spec& spec, const cuto
 }
 
 void decode_shape(Reader& in, const Common& common, cutout::Lay lay, cutout::Spec& out) {
-  enum class Kind { circle, slot, rectangle, contour, dxf };
-  static constexpr std::array kKinds{
-      Option<Kind>{"circle", Kind::circle}, Option<Kind>{"slot", Kind::slot},
-      Option<Kind>{"rectangle", Kind::rectangle}, Option<Kind>{"contour", Kind::contour},
-      Option<Kind>{"dxf", Kind::dxf}};
+  enum class Kind { circle, slot, rectangle, contour, dxf, slit };
+  static constexpr std::array kKinds{Option<Kind>{"circle", Kind::circle},
+                                     Option<Kind>{"slot", Kind::slot},
+                                     Option<Kind>{"rectangle", Kind::rectangle},
+                                     Option<Kind>{"contour", Kind::contour},
+                                     Option<Kind>{"dxf", Kind::dxf},
+                                     Option<Kind>{"slit", Kind::slit}};
   const auto kind = in.tag("kind", kKinds);
   if (!kind) return;
   out.turn = in.angle("angle_deg", kTurnDeg, Angle{}).rad();
@@ -150,6 +152,13 @@ void decode_shape(Reader& in, const Common& common, cutout::Lay lay, cutout::Spe
       out.as_cut = decode_as_cut(in);
       out.shape = decode_dxf_shape(in);
       return;
+    case Kind::slit: {
+      const double length = in.number("length_mm", kSize);
+      out.shape = cutout::Slit{.length = length,
+                               .width = common.once.kerf,
+                               .pierce = in.choice("pierce", cutout::Slit::Pierce::middle)};
+      return;
+    }
   }
 }
 

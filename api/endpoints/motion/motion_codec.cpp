@@ -354,6 +354,12 @@ Result<ScheduleRequest> resolve(ScheduleRequest request) {
                    .hint = "the machine's torch swings along the tube only"});
   const auto& cutouts = resolved.part.cutouts.all;
   for (std::size_t k = 0; k < cutouts.size(); ++k)
+    if (std::holds_alternative<cutout::Slit>(cutouts[k].shape))
+      return fail({.code = ErrorCode::unsupported_combination,
+                   .member = "part/cutouts/" + std::to_string(k) + "/shape/kind",
+                   .got = "slit",
+                   .hint = "a slit has no pulses yet, because its path ends in the metal"});
+  for (std::size_t k = 0; k < cutouts.size(); ++k)
     if (cutouts[k].countersink)
       return fail({.code = ErrorCode::unsupported_combination,
                    .member = "part/cutouts/" + std::to_string(k) + "/countersink",

@@ -65,6 +65,9 @@ std::string shape_words(const cutout::Shape& shape) {
   if (const auto* box = std::get_if<cutout::Rectangle>(&shape))
     return "rectangle " + stated(box->along) + " x " + stated(box->round) +
            field("corners", box->radius);
+  if (const auto* slit = std::get_if<cutout::Slit>(&shape))
+    return "slit " + stated(slit->length) + "; pierce " + std::string(name_of(slit->pierce)) +
+           field("kerf", slit->width);
   const auto& drawing = std::get<cutout::Contour>(shape);
   return "contour of " + std::to_string(drawing.pieces.size()) + " pieces from " +
          stated(drawing.start) + (drawing.mirrored ? "; mirrored" : "");

@@ -109,7 +109,7 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
     if (!laid) refuse(cut, o, laid.error());
     for (const auto& each : *laid) {
       const auto& way = each.way;
-      if (!cut.mark && lead_of(way, job.outer_radius) < job.shortest_lead)
+      if (!cut.mark && !cut.open && lead_of(way, job.outer_radius) < job.shortest_lead)
         throw UnfitOption{"lead_mm", (cut.name.empty() ? "the cut" : "cut " + cut.name) +
                                          ": the scrap has no room for the shortest lead of the "
                                          "machine's table, " +
@@ -118,7 +118,8 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
                      .places = {},
                      .kerf = cut.kerf,
                      .radius = way.radius,
-                     .mark = cut.mark});
+                     .mark = cut.mark,
+                     .open = cut.open});
       refine(way.points, cut.on_flat, reach, turn, moves, out.back());
     }
   }

@@ -265,11 +265,14 @@ std::string cut_title(const TorchCutPlaces& cut, const TorchJoints& joints,
         "starts at " + joints.turn().shown(joints.turn_at(cut.start())) + ", " +
         (joints.has_swing() ? joints.swing().shown(cut.start().b * kDegPerRad) + ", " : "") +
         post.length(cut.start().z) + " from " + joints.along().zero());
-  if (cut.radius < o.lead.value_or(0.0))
+  if (cut.open) {
+    if (o.lead) out += post.comment("a slit has no leads: the torch goes over it from its pierce");
+  } else if (cut.radius < o.lead.value_or(0.0)) {
     out += post.comment(
         cut.radius > 0.0
             ? "leads of " + post.length(cut.radius) + ": the scrap has no room for more"
             : "from the middle of the scrap, which has no room for leads along the cut");
+  }
   return out;
 }
 

@@ -17,6 +17,7 @@ struct TorchCutPlaces {
   double kerf = 0.0;
   double radius = 0.0;  // of its leads
   bool mark = false;
+  bool open = false;                        // a slit
   std::size_t cut_first = 0, cut_last = 0;  // positions between which the torch cuts
 
   /// Returns the start of the cut.

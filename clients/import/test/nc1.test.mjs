@@ -38,7 +38,7 @@ function sameEnds(one, other, by, told) {
 }
 
 test(`${parts} drawn parts: the imported request gives the same part`, async (of) => {
-  const seen = {round: 0, planes: 0, cutouts: 0, contours: 0, through: 0, sunk: 0};
+  const seen = {round: 0, planes: 0, cutouts: 0, contours: 0, through: 0, sunk: 0, slits: 0};
   for (let number = 0; number < parts; ++number) {
     const body = drawnPart(seed, number);
     const told = `seed ${seed}, part ${number}`;
@@ -65,6 +65,7 @@ test(`${parts} drawn parts: the imported request gives the same part`, async (of
     seen.planes += Object.values(body.ends).filter(({cutters}) => cutters).length;
     seen.cutouts += before.length;
     seen.contours += (body.cutouts ?? []).filter(({shape}) => shape.kind === 'contour').length;
+    seen.slits += (body.cutouts ?? []).filter(({shape}) => shape.kind === 'slit').length;
     seen.sunk += before.filter(({wall}) => wall === 'countersink').length;
     seen.through += (body.cutouts ?? []).filter(({wall}) => wall === 'through').length;
   }

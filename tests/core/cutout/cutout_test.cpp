@@ -297,6 +297,9 @@ TEST_F(RandomCutouts, GrowAsTheTubeGrows) {
         return Rectangle{kScale * r.along, kScale * r.round, kScale * r.radius};
       }
       Shape operator()(const Contour& c) const { return c; }
+      Shape operator()(const Slit& s) const {
+        return Slit{kScale * s.length, kScale * s.width, s.pierce};
+      }
     };
     one.shape = std::visit(Grown{}, one.shape);
     const auto second = lay(

@@ -19,6 +19,8 @@ std::string in_words(const cutout::Spec& spec) {
   if (const auto* c = std::get_if<cutout::Circle>(&spec.shape)) return "circle " + mm(c->diameter);
   if (const auto* s = std::get_if<cutout::Slot>(&spec.shape))
     out = "slot " + mm(s->length) + " x " + mm(s->width);
+  if (const auto* s = std::get_if<cutout::Slit>(&spec.shape))
+    out = "slit " + mm(s->length) + ", one kerf wide";
   if (const auto* r = std::get_if<cutout::Rectangle>(&spec.shape))
     out = "window " + mm(r->along) + " x " + mm(r->round) + ", R " + mm(r->radius);
   return spec.turn == 0.0 ? out : out + " at " + degrees(spec.turn);

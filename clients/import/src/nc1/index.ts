@@ -241,7 +241,7 @@ function read(file: Nc1, stated: Stated, tube: Tube, tell: (id: string, type: st
   }
   others(file, tell);
   const {id, reference} = referenceOf(file, stated);
-  const kerf_mm = start.kerf ?? 0;
+  const kerf_mm = into.kerf ?? start.kerf ?? 0;
   const density = densityOf(file, tube, stated.ours, tell);
   const part: Part = {
     target: {...(id === undefined ? {} : {id}), ...tube.target, length_mm: exact(to - from)},

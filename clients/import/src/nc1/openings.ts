@@ -16,6 +16,8 @@ export interface Openings {
   name: ReturnType<typeof names>;
   tell: Tell;
   cutouts: Cutout[];
+  /** Of the part, as its slits state it: they are as wide. */
+  kerf?: number;
   /** Line and block of each cut-out. */
   from: {id: string; line: number; type: string}[];
   marks: Mark[];
@@ -219,6 +221,7 @@ function stated(to: Openings, block: Block, face: Face): boolean {
   }
   const {at} = spotOf(to, face, found.x, found.y);
   const {wall, tilt, countersink} = found;
+  if (found.kerf !== undefined) to.kerf = found.kerf;
   const more = {...(wall === 'normal' ? {} : {wall}), ...(tilt === 'axial' ? {} : {tilt}), ...(countersink ? {countersink} : {})};
   add(to, block, block.line, {id: to.name(title.name, `${block.code} ${to.cutouts.length + 1}`), shape: found.shape, at, ...more});
   return true;

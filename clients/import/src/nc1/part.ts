@@ -14,6 +14,7 @@ interface Cornered extends Turned {
 export type CutoutShape =
   | ({kind: 'circle'; diameter_mm: number} & Turned)
   | ({kind: 'slot'; length_mm: number; width_mm: number} & Turned)
+  | ({kind: 'slit'; length_mm: number; pierce?: 'end'} & Turned)
   | ({kind: 'rectangle'; along_mm: number; round_mm: number; corner_radius_mm: number} & Cornered)
   | ({kind: 'contour'; start_mm: Point; pieces: Piece[]; mirrored?: boolean} & Cornered);
 

@@ -23,6 +23,8 @@ export interface StatedShape {
   wall: string;
   tilt: string;
   countersink?: Countersink;
+  /** Of a slit, as wide as the beam. */
+  kerf?: number;
   x: number;
   y: number;
 }
@@ -131,10 +133,11 @@ function shapeOf(text: string, lines: string[]): CutoutShape | undefined {
   const [first = ''] = groups(text);
   const [kind = '', rest = ''] = [/^\w+/.exec(first)?.[0], first.replace(/^\w+ /, '')];
   const [a, b] = numbers(rest) as [number, number];
-  const found = valuesOf(text, ['corners', 'turned', 'as cut', 'mirrored']);
+  const found = valuesOf(text, ['corners', 'turned', 'as cut', 'mirrored', 'pierce']);
   const turned = found.has('turned') ? {angle_deg: decimal(found.get('turned'))} : {};
   const corners = found.has('as cut') ? ({corners: 'as_cut'} as const) : {};
   if (kind === 'circle') return {kind, diameter_mm: a, ...turned};
+  if (kind === 'slit') return {kind, length_mm: a, ...(found.get('pierce') === 'end' ? {pierce: 'end' as const} : {}), ...turned};
   if (kind === 'slot') return {kind, length_mm: a, width_mm: b, ...turned};
   if (kind === 'rectangle') return {kind, along_mm: a, round_mm: b, corner_radius_mm: decimal(found.get('corners')), ...corners, ...turned};
   const drawn = /^contour of (\d{1,4}) pieces from (\S+) (\S+)$/.exec(first);
@@ -148,12 +151,13 @@ export function statedShape(comments: string[]): StatedShape | undefined {
   if (at < 0) return undefined;
   const text = (comments[at] as string).slice('shape: '.length);
   const shape = shapeOf(text, comments.slice(at + 1));
-  const found = valuesOf(text, ['wall', 'tilt', 'at x', 'y', 'countersink', 'sunk at']);
+  const found = valuesOf(text, ['wall', 'tilt', 'at x', 'y', 'countersink', 'sunk at', 'kerf']);
   const [wall, tilt] = [found.get('wall'), found.get('tilt')];
   const [x, y] = [decimal(found.get('at x')), decimal(found.get('y'))];
   if (!wall || !['normal', 'through', 'developed'].includes(wall) || !tilt || !['axial', 'free', 'none'].includes(tilt)) return undefined;
   const sink = found.has('countersink') ? {countersink: {diameter_mm: decimal(found.get('countersink')), angle_deg: decimal(found.get('sunk at'))}} : {};
-  const out = shape && {shape, wall, tilt, ...sink, x, y};
+  const kerf = found.has('kerf') ? {kerf: decimal(found.get('kerf'))} : {};
+  const out = shape && {shape, wall, tilt, ...sink, ...kerf, x, y};
   return isWhole(out) ? out : undefined;
 }
 

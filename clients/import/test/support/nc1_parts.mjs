@@ -57,6 +57,7 @@ export function drawnPart(seed, number, plain = false) {
   const most = Math.min(60, 0.45 * across);
   const count = most < 5 ? 0 : Math.floor(5 * next());
   const clear = 1.5 * (isRound ? target.outer_diameter_mm : Math.max(target.height_mm, target.width_mm)) + 80;
+  const kerf_mm = pick(next, [0, 0.3, 1.5]);
   const cutouts = Array.from({length: count}, (_, i) => {
     const size = between(next, Math.min(8, most), most);
     const face = 1 + Math.floor(4 * next());
@@ -65,7 +66,9 @@ export function drawnPart(seed, number, plain = false) {
       ...(next() < 0.2 ? {opposite: true} : {})};
     const wall = pick(next, ['normal', 'developed', 'through']);
     const tilt = isRound && !plain && wall !== 'developed' && next() < 0.3 ? {tilt: 'free'} : {};
-    const shape = shapeOf(next, size);
+    const turned = isRound ? {} : {angle_deg: round3(between(next, -180, 180))};
+    const slit = !plain && kerf_mm > 0 && next() < 0.25;
+    const shape = slit ? {kind: 'slit', length_mm: round3(size), ...turned, ...(next() < 0.5 ? {pierce: 'end'} : {})} : shapeOf(next, size);
     const sunk = !plain && shape.kind === 'circle' && wall !== 'developed';
     const countersink = sunk ? {countersink: {diameter_mm: round3(1.3 * size + 1), angle_deg: pick(next, [60, 90])}} : {};
     const pattern = next() < 0.3 ? {pattern: {kind: 'linear', count: 2, pitch_mm: round3(between(next, 80, 110))}} : {};
@@ -79,7 +82,7 @@ export function drawnPart(seed, number, plain = false) {
     target: {id: `P${number}`, ...target, length_mm: round3(2 * clear + 200 * Math.max(count, 1) + between(next, 100, 300))},
     ends: {start: end(), finish: end()},
     ...(cutouts.length > 0 ? {cutouts} : {}),
-    kerf_mm: pick(next, [0, 0.3, 1.5]),
+    kerf_mm,
     ...(isRound && next() < 0.3 ? {datum: 'seam', seam_deg: 33} : {}),
     density_kg_m3: pick(next, [7850, 7850, 2700, 8000]),
     sampling: {uniform_points: 72},
