@@ -19,7 +19,7 @@ constexpr double kOnChain = 1e-9;   // mm
 constexpr double kVolume = 1e-9;    // of itself
 constexpr double kApart = 0.05;     // mm between the places of a wall that the beam is held against
 constexpr int kMostPlaces = 2'000;  // of them
-constexpr double kNearBore = 0.7;
+constexpr double kFineFrom = 0.7;
 constexpr int kRings = 16, kGauss = 8, kPieces = 4;
 
 /// A point of the tube about its anchor: on a flat, x is the depth below the outside.
@@ -150,7 +150,7 @@ double volume_by_rings(const Mould& mould) {
   double most = 0.0;
   for (const auto& s : mould.chain) {
     const int count = kPieces * (1 + static_cast<int>(12.0 * std::abs(s.sweep) / kTwoPi));
-    auto& shares = pieces.emplace_back(shares_towards(s, count, kNearBore * inner));
+    auto& shares = pieces.emplace_back(shares_towards(s, count, kFineFrom * inner));
     if (shares.empty())
       for (int i = 0; i <= count; ++i) shares.push_back(static_cast<double>(i) / count);
     most = std::max(most, reach_across(s));

@@ -50,6 +50,7 @@ const exampleNames: Record<string, string> = {
   'parts/rack-upright': later('A rack upright with staggered slots'),
   'parts/perforated-tube': later('A perforated tube'),
   'parts/chs-brace-with-gusset-slits': later('A brace with slits for gussets'),
+  'parts/rhs-door-frame-with-countersinks': later('A door jamb with countersunk holes and a slit'),
   'parts/tube-laser-chord': later('A chord cut square by a tube laser'),
   'parts/gate-rail-of-60x40-mitred': later('A gate rail of 60 × 40, mitred'),
   'frames/jacket-node-with-set-in-stubs': later('A jacket node with set-in stubs'),

@@ -1,6 +1,7 @@
 #include "api/formats/drawing/order/order_cutouts.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -46,24 +47,26 @@ std::string in_words(cutout::Lay lay) {
   return {};
 }
 
-std::string in_words(const cutout::Pattern& pattern) {
-  const auto steps = [](double along, double turn) {
+/// `way` states a step round the tube.
+using WayText = std::function<std::string(double turn)>;
+std::string in_words(const cutout::Pattern& pattern, const WayText& way) {
+  const auto steps = [&](double along, double turn) {
     return (along != 0.0 ? number(along, Unit::mm) : "") +
-           (along != 0.0 && turn != 0.0 ? ", " : "") + (turn != 0.0 ? degrees(turn) : "");
+           (along != 0.0 && turn != 0.0 ? ", " : "") + (turn != 0.0 ? way(turn) : "");
   };
   if (const auto* l = std::get_if<cutout::Linear>(&pattern))
     return std::to_string(l->count) + " by " + steps(l->pitch, l->turn);
   if (const auto* r = std::get_if<cutout::Round>(&pattern))
-    return std::to_string(r->count) + " by " + degrees(r->turn);
+    return std::to_string(r->count) + " by " + way(r->turn);
   if (const auto* g = std::get_if<cutout::Grid>(&pattern))
     return std::to_string(g->along) + " by " + number(g->pitch, Unit::mm) + ", " +
-           std::to_string(g->round) + " by " + degrees(g->turn) +
+           std::to_string(g->round) + " by " + way(g->turn) +
            (g->stagger == cutout::Grid::Stagger::none ? "" : ", staggered");
   if (const auto* f = std::get_if<cutout::Faces>(&pattern)) {
     std::string out = "faces";
     for (const int face : f->faces) out += " " + std::to_string(face);
     const auto each =
-        std::visit([](const auto& one) { return in_words(cutout::Pattern(one)); }, f->each);
+        std::visit([&](const auto& one) { return in_words(cutout::Pattern(one), way); }, f->each);
     return each == "one" ? out : out + ", " + each;
   }
   return "one";
@@ -76,7 +79,8 @@ namespace {
 /// `position` states where an instance lies round the tube.
 template <class PositionText>
 void draw_cutout_rows(OrderSheets& sheets, const std::vector<cutout::Spec>& specs,
-                      const cutout::Layout& layout, double longest, const PositionText& position) {
+                      const cutout::Layout& layout, double longest, const PositionText& position,
+                      const WayText& way) {
   if (layout.empty()) return;
   constexpr double kRow = 6.4;
   draw_head(sheets, "Cut-outs: anchor of the first of each, outside, in mm",
@@ -103,7 +107,7 @@ void draw_cutout_rows(OrderSheets& sheets, const std::vector<cutout::Spec>& spec
     put(22.0, 2.9, mould.cone ? in_words(*mould.cone) : in_words(asked), 43.0);
     put(66.0, 2.9, number(one.z, Unit::mm) + "; " + number(longest - one.z, Unit::mm), 33.0);
     put(100.0, 2.9, position(one), 15.0);
-    put(116.0, 2.9, in_words(asked.pattern), 45.0);
+    put(116.0, 2.9, in_words(asked.pattern, way), 45.0);
     draw_box(canvas, top, kRow);
     draw_row_line(canvas, top - kRow);
   }
@@ -112,21 +116,27 @@ void draw_cutout_rows(OrderSheets& sheets, const std::vector<cutout::Spec>& spec
 }  // namespace
 
 void draw_cutouts(OrderSheets& sheets, const part::PartSpec& spec, const part::Part& part) {
-  draw_cutout_rows(sheets, spec.cutouts.all, part.cutouts, part.lengths.longest,
-                   [&](const cutout::Instance& one) {
-                     const auto& laying = part.cutouts.mould_of(one).laying;
-                     const double middle = turned_from(0.0, one.phi + laying.phase(0.0));
-                     return number(spec.target.outer_radius * middle, Unit::mm);
-                   });
+  draw_cutout_rows(
+      sheets, spec.cutouts.all, part.cutouts, part.lengths.longest,
+      [&](const cutout::Instance& one) {
+        const auto& laying = part.cutouts.mould_of(one).laying;
+        const double middle = turned_from(0.0, one.phi + laying.phase(0.0));
+        return number(spec.target.outer_radius * middle, Unit::mm);
+      },
+      [](double turn) { return degrees(turn); });
 }
 
 void draw_cutouts(OrderSheets& sheets, const part::SectionPartSpec& spec,
                   const part::SectionPart& part) {
-  draw_cutout_rows(sheets, spec.cutouts.all, part.cutouts, part.lengths.longest,
-                   [](const cutout::Instance& one) {
-                     return "face " + std::to_string(one.face) +
-                            (one.offset == 0.0 ? "" : ", " + number(one.offset, Unit::mm));
-                   });
+  draw_cutout_rows(
+      sheets, spec.cutouts.all, part.cutouts, part.lengths.longest,
+      [](const cutout::Instance& one) {
+        return "face " + std::to_string(one.face) +
+               (one.offset == 0.0 ? "" : ", " + number(one.offset, Unit::mm));
+      },
+      [girth = spec.section.outer().girth()](double turn) {
+        return number(turn / kTwoPi * girth, Unit::mm) + " across";
+      });
 }
 
 std::optional<CutoutRun> cutout_run(const std::vector<part::Step>& all, std::size_t first,
