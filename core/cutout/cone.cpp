@@ -6,6 +6,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
+#include "core/base/rounding.hpp"
 #include "core/math/quadrature.hpp"
 
 namespace tubecut::cutout {
@@ -208,18 +209,26 @@ ConeWall cone_wall(const Laying& laying, const Cone& cone) {
 std::vector<Issue> check_cone(const Laying& laying, const Cone& cone, double kerf,
                               double most_lean) {
   const double beam = kerf / elementary::cos(cone.half);
+  constexpr double kWider = 1e-3;  // mm
+  if (laying.lay() != Lay::flat && cone.diameter > 2.0 * laying.outer())
+    return {{.code = ErrorCode::out_of_range,
+             .member = "countersink/diameter",
+             .got = cone.diameter,
+             .limit = rounded_down(2.0 * laying.outer()),
+             .unit = "mm",
+             .hint = "a countersink is at most as wide as the tube"}};
   if (!(cone.diameter > cone.hole))
     return {{.code = ErrorCode::out_of_range,
              .member = "countersink/diameter",
              .got = cone.diameter,
-             .limit = cone.hole,
+             .limit = rounded_up(cone.hole + kWider),
              .unit = "mm",
              .hint = "a countersink is wider than its circle"}};
   if (!(cone.diameter > beam))
     return {{.code = ErrorCode::out_of_range,
              .member = "countersink/diameter",
              .got = cone.diameter,
-             .limit = beam,
+             .limit = rounded_up(beam + kWider),
              .unit = "mm",
              .hint = "the leaning beam alone is as wide"}};
   if (cone.half > most_lean)

@@ -280,6 +280,33 @@ TEST(EverydayTables, ThreeRoundTubesMeetAtThePlanesBetweenThem) {
   }
 }
 
+/// The legs of a pyramid are one part, whatever their order: each ends at the planes between it and
+/// the others.
+TEST(EverydayTables, LegsOfAPyramidMeetAtThePlanesBetweenThem) {
+  const std::vector<std::string> feet{"[1000, 0, 0]", "[0, 1000, 0]", "[-1000, 0, 0]",
+                                      "[0, -1000, 0]"};
+  std::set<double> all;
+  for (const auto& order : {std::vector<std::size_t>{0, 1, 2, 3}, {0, 2, 1, 3}, {3, 1, 0, 2}}) {
+    std::string members;
+    for (const auto i : order)
+      members += (members.empty() ? "" : ",") + (R"({"id": "leg)" + std::to_string(i)) +
+                 R"(", "start_mm": )" + feet[i] +
+                 R"(, "end_mm": [0, 0, 1200], "size": "CHS 48.3x3.2"})";
+    const auto answer = post("/v1/frames", *api::parse(R"({"kerf_mm": 1, "connect":
+        {"within_mm": 3}, "defaults": {"root_surface": "inner", "groove": {"rule": "none"},
+        "smoothing": {"method": "none"}, "contact": "auto"}, "members": [)" +
+                                                       members + "]}"));
+    ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+    EXPECT_EQ(text(answer.body, "verdict/status"), "ok");
+    EXPECT_EQ(at(answer.body, "parts").as<Json::Array>()->size(), 1u);
+    const auto lengths = lengths_of(answer);
+    EXPECT_EQ(lengths.count(*lengths.begin()), 4u);
+    EXPECT_GT(*lengths.begin(), std::hypot(1000.0, 1200.0));
+    all.insert(*lengths.begin());
+  }
+  EXPECT_EQ(all.size(), 1u);
+}
+
 /// Rails whose outer faces are flush with those of a larger leg do not join each other, and share
 /// its corner all the same.
 TEST(EverydayTables, SmallRailsFlushWithTheFacesOfALargeLegShareItsCorner) {

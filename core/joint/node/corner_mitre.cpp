@@ -15,6 +15,18 @@ using Eigen::Vector3d;
 constexpr double kSteeper = 1e-3;  // of the rise of two planes
 constexpr double kOutside = 0.05;  // mm: of an edge that its chord does not hide
 
+/// Returns true if the members of three ends leave it square to each other.
+bool is_box_corner(const NodeSpec& spec, const std::vector<std::size_t>& ends) {
+  constexpr double kSquare = 1e-3;  // cosine
+  const auto into = [&](std::size_t k) {
+    return Vector3d(spec.members[ends[k] / 2].into(end_of(ends[k])).normalized());
+  };
+  if (ends.size() != 3) return false;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (std::abs(into(k).dot(into((k + 1) % 3))) > kSquare) return false;
+  return true;
+}
+
 /// What both ends of a pair are, in space.
 struct Corner {
   const Member& a;
@@ -60,7 +72,7 @@ class Search {
     for (auto& [end, ends] : corners) {
       ends.push_back(end);
       std::ranges::sort(ends);
-      out.insert(flattest(ends));
+      out.merge(mitres_of(ends));
     }
     return out.empty() ? others : out;
   }
@@ -116,24 +128,37 @@ class Search {
            kOutside;
   }
 
-  /// Returns that pair of the ends at one corner whose plane lies flattest in the world, because
-  /// posts end on frames; of equals the first.
-  [[nodiscard]] EndPair flattest(const std::vector<std::size_t>& ends) const {
-    EndPair out{ends[0], ends[1]};
-    double most = -1.0;
+  /// Returns the pairs of the ends at one corner that are mitred: of the corner of a box the one
+  /// whose plane lies flattest in the world, because posts end on frames; else all, if all may be,
+  /// or the first that may.
+  [[nodiscard]] std::set<EndPair> mitres_of(const std::vector<std::size_t>& ends) const {
+    std::vector<EndPair> all;
+    bool each = true;
     for (std::size_t k = 0; k < ends.size(); ++k)
       for (std::size_t l = k + 1; l < ends.size(); ++l)
-        if (const EndPair pair{ends[k], ends[l]}; may_mitre(pair)) {
-          const auto at = corner_of(joints_.spec, pair);
-          const double rise = std::abs(at.u.cross(at.v).normalized().z());
-          if (rise > most + kSteeper) most = rise, out = pair;
-        }
-    return out;
+        if (const EndPair pair{ends[k], ends[l]}; may_mitre(pair))
+          all.push_back(pair);
+        else
+          each = false;
+    if (is_box_corner(joints_.spec, ends)) {
+      const auto rise = [&](const EndPair& pair) {
+        const auto at = corner_of(joints_.spec, pair);
+        return std::abs(at.u.cross(at.v).normalized().z());
+      };
+      auto best = all.front();
+      for (const auto& pair : all)
+        if (rise(pair) > rise(best) + kSteeper) best = pair;
+      return {best};
+    }
+    if (each) return {all.begin(), all.end()};
+    return {all.front()};
   }
 
-  /// Returns the pairs of an end that only members cut which end there too, cut by none.
+  /// Returns the pairs of an end that only members cut which end there too, cut by none, if it is
+  /// open to one of them.
   [[nodiscard]] std::set<EndPair> open_corners(std::size_t end) const {
     std::set<EndPair> out;
+    if (std::ranges::none_of(ends_[end].cut_by, is_open)) return out;
     for (const auto& cut : ends_[end].cut_by) {
       if (cut.plane) continue;
       const auto pair = open_corner(end, cut);
@@ -143,7 +168,6 @@ class Search {
     return out;
   }
   [[nodiscard]] std::optional<EndPair> open_corner(std::size_t end, const CutBy& cut) const {
-    if (!is_open(cut)) return std::nullopt;
     const auto& spec = joints_.spec;
     const auto& from = spec.members[end / 2].at(end_of(end));
     const auto& m = spec.members[cut.member];
@@ -218,7 +242,7 @@ std::set<Applied::Pair> posts_on_corners(const NodeSpec& spec, const Joined& joi
   if (within == nullptr) return out;
   for (std::size_t end = 0; end < joined.size(); ++end) {
     const auto ends = meeting_at(spec, joined, lines, end, std::max(within->distance, kBesideMost));
-    if (ends.size() != 3) continue;
+    if (!is_box_corner(spec, ends)) continue;
     const auto rise = [&](std::size_t k) {  // of the plane of the two others
       const auto into = [&](std::size_t i) {
         const auto at = ends[(k + i) % 3];
