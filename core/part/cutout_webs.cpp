@@ -136,7 +136,7 @@ class CutoutSearch {
       if (!off_.contains(asked)) issues.push_back(crossing(asked, pair));
     if (!issues.empty()) return tl::unexpected(Error{std::move(issues)});
     out_.net = least_section(part_.gross, part_.layout);
-    return std::move(out_);
+    return out_;
   }
 
  private:

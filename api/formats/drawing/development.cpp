@@ -271,8 +271,8 @@ Development developed(const part::SectionPartSpec& spec, const part::SectionPart
     for (std::size_t i = 0; i < t.at.size(); ++i)
       scrap.push_back(finish ? std::max(t.z_outer[i], t.z_inner[i])
                              : std::min(t.z_outer[i], t.z_inner[i]));
-    for (auto& span : spans_of(shares(t.at, out.outer_radius), scrap, t.cutter, finish))
-      out.spans.push_back(std::move(span));
+    for (const auto& span : spans_of(shares(t.at, out.outer_radius), scrap, t.cutter, finish))
+      out.spans.push_back(span);
   }
   for (std::size_t i = 0; i < part.cutouts.instances.size(); ++i)
     out.cuts.push_back(flat_outline(spec.section, part.cutouts, i, on));

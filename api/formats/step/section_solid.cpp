@@ -26,7 +26,7 @@ constexpr double kLeastRadius = 1e-3;  // mm, of a corner
 class Builder {
  public:
   Builder(const part::SectionPartSpec& spec, const part::SectionPart& part)
-      : wall_(spec.section), spec_(spec), part_(part) {
+      : wall_(spec.section), part_(part) {
     out_.wall = spec.section.wall;
     for (const bool outer : {true, false}) {
       const auto& curve = outer ? wall_.outer() : wall_.bore();
@@ -293,7 +293,6 @@ class Builder {
   }
 
   section::Wall wall_;
-  const part::SectionPartSpec& spec_;
   const part::SectionPart& part_;
   std::array<std::vector<double>, 2>
       seams_;  // outer s where faces of the outside and the bore meet
