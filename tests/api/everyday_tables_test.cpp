@@ -307,6 +307,30 @@ TEST(EverydayTables, LegsOfAPyramidMeetAtThePlanesBetweenThem) {
   EXPECT_EQ(all.size(), 1u);
 }
 
+/// A brace larger than the two pieces of a run at whose butt it ends cuts one of them back, so that
+/// the other's face meets nothing: that is told, whatever the order.
+TEST(EverydayTables, APieceThatIsCutBehindTheButtLeavesTheOtherOpen) {
+  const std::vector<std::string> all{
+      R"({"id": "a", "start_mm": [-800, 0, 0], "end_mm": [0, 0, 0], "size": "CHS 33.7x2.6"})",
+      R"({"id": "b", "start_mm": [0, 0, 0], "end_mm": [800, 0, 0], "size": "CHS 33.7x2.6"})",
+      R"({"id": "k", "start_mm": [0, 0, 0], "end_mm": [500, 0, 500], "size": "CHS 60.3x3.2"})"};
+  for (const auto& order : {std::vector<std::size_t>{0, 1, 2}, {2, 1, 0}, {1, 0, 2}}) {
+    std::string members;
+    for (const auto i : order) members += (members.empty() ? "" : ",") + all[i];
+    const auto answer = post("/v1/frames", *api::parse(R"({"kerf_mm": 1, "connect":
+        {"within_mm": 3}, "defaults": {"root_surface": "inner", "groove": {"rule": "none"},
+        "smoothing": {"method": "none"}, "contact": "auto"}, "members": [)" +
+                                                       members + "]}"));
+    ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+    bool told = false;
+    for (const auto& warning : *at(answer.body, "warnings").as<Json::Array>())
+      told = told || (text(warning, "code") == "ghost_contact" &&
+                      text(warning, "detail").find("behind that plane") != std::string::npos);
+    EXPECT_TRUE(told) << answer.outcome.body.substr(0, 400);
+    EXPECT_EQ(text(answer.body, "verdict/status"), "review");
+  }
+}
+
 /// Rails whose outer faces are flush with those of a larger leg do not join each other, and share
 /// its corner all the same.
 TEST(EverydayTables, SmallRailsFlushWithTheFacesOfALargeLegShareItsCorner) {

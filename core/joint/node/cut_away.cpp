@@ -12,8 +12,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStillInside = 0.02;  // mm: coordinates are rounded
-constexpr double kFirstStep = 0.25;    // mm, of a doubling search
+constexpr double kStillInside = 0.02;   // mm: coordinates are rounded
+constexpr double kClearlyInside = 0.5;  // mm: a line that only touches a member is not cut by it
+constexpr double kFirstStep = 0.25;     // mm, of a doubling search
 constexpr int kBisections = 40;
 
 /// Returns true if the point is next to the member between its ends.
@@ -31,8 +32,8 @@ std::optional<double> way_inside(const Member& m, const Vector3d& point, const V
   const double nearest =
       (from.dot(axis) * cosine - from.dot(into)) / (1.0 - cosine * cosine);  // to the axis
   const auto off = [&](double way) { return distance_from(m, point + way * into); };
-  for (const double way : {0.0, nearest})
-    if (way >= 0.0 && off(way) <= kStillInside) return way;
+  if (off(0.0) <= kStillInside) return 0.0;
+  if (nearest >= 0.0 && off(nearest) <= -kClearlyInside) return nearest;
   const Vector3d foot = from + nearest * into;
   if (!m.section || !((foot - foot.dot(axis) * axis).norm() < m.reach())) return std::nullopt;
   // A line across a corner of the section; the distance from a convex body is convex along it.
@@ -42,7 +43,7 @@ std::optional<double> way_inside(const Member& m, const Vector3d& point, const V
     const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
     (off(a) < off(b) ? high : low) = off(a) < off(b) ? b : a;
   }
-  return off(low) <= kStillInside ? std::optional(low) : std::nullopt;
+  return off(low) <= -kClearlyInside ? std::optional(low) : std::nullopt;
 }
 
 }  // namespace

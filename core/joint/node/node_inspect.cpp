@@ -92,7 +92,7 @@ class EndInspection {
       see_hidden(cutters, line, *top);
       const auto at = hit(cutters[top->cutter], line);
       if (end_.cut_by[top->cutter].plane || !at)
-        seen.there = true;
+        see_plane(top->cutter, line, top->z);
       else
         see(top->cutter, line, *at);
     }
@@ -117,6 +117,22 @@ class EndInspection {
       seen.nearest = std::min(seen.nearest, off.by);
     }
   }
+  /// Sees a mitre's plane, behind which another member may have cut the partner away.
+  void see_plane(std::size_t cutter, const Generator& line, double z) {
+    seen_[cutter].there = true;
+    if (cut_away_[cutter].empty()) return;
+    const double off = cut_away_[cutter].length(in_space(line, z));
+    // Less is where a line touches the other member, by rounding.
+    if (off <= kBehindPlane * spec_.members[end_.member].reach()) return;
+    auto& cut = end_.cut_by[cutter];
+    cut.ghost = true;
+    cut.missing = std::max(cut.missing, off);
+  }
+  [[nodiscard]] Vector3d in_space(const Generator& line, double z) const {
+    return end_.frame.origin + end_.frame.rows.transpose() * Vector3d(line.radius * line.cos_phi,
+                                                                      line.radius * line.sin_phi,
+                                                                      z);
+  }
   void see(std::size_t cutter, const Generator& line, const Hit& at) {
     auto& cut = end_.cut_by[cutter];
     auto& seen = seen_[cutter];
@@ -134,9 +150,7 @@ class EndInspection {
     const auto& m = spec_.members[cut.member];
     const bool is_beyond = beyond(m, cut, at.axial);
     if (!is_beyond && cut_away_[cutter].empty() && planes_[cutter].empty()) return {};
-    const Vector3d place = end_.frame.origin +
-                           end_.frame.rows.transpose() * Vector3d(line.radius * line.cos_phi,
-                                                                  line.radius * line.sin_phi, at.z);
+    const Vector3d place = in_space(line, at.z);
     if (const double off = cut_away_[cutter].length(place); off > kCutAway) return {.by = off};
     const auto end = end_index(cut.member, along(cut, at.axial) < 0.0 ? End::start : End::finish);
     const bool has_planes = std::ranges::any_of(
@@ -169,9 +183,10 @@ class EndInspection {
     return out;
   }
 
-  static constexpr double kStep = 0.01;        // mm: negligible
-  static constexpr double kFlushFaces = 0.05;  // mm
-  static constexpr double kCutAway = 0.5;      // mm: where two cuts meet, either may hold
+  static constexpr double kStep = 0.01;         // mm: negligible
+  static constexpr double kFlushFaces = 0.05;   // mm
+  static constexpr double kBehindPlane = 0.25;  // of the member's reach
+  static constexpr double kCutAway = 0.5;       // mm: where two cuts meet, either may hold
 
   const NodeSpec& spec_;
   const Lines& lines_;

@@ -37,6 +37,9 @@ std::string ghost(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut,
                   const Joined& joined) {
   const auto other = called(spec, cut.member);
   const auto far = brief(cut.missing) + " mm";
+  if (cut.plane)
+    return "ends at the plane between it and " + other + ", which another member cuts away up to " +
+           far + " behind that plane; state how that member meets the two";
   if (cut.instead)
     return "cut by " + other + " beyond that member's end, where " + called(spec, *cut.instead) +
            ", which continues it, lies up to " + far + " lower";
