@@ -99,7 +99,7 @@ class FormatTest(unittest.TestCase):
 
 def cutout_name(group, instance):
     """What files call a cut-out of an answer's part."""
-    return f"cut-out {instance['id']}{' far' if group['side'] == 'far' else ''}"
+    return f"cut-out {instance['id']}{' far' if group['side'] == 'far' else ''}{' countersink' if group['wall'] == 'countersink' else ''}"
 
 
 def cutout_points(result, index):
