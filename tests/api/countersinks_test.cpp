@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tests/api/part_pulses.hpp"
 #include "tests/support/call.hpp"
 
 /// Countersinks of parts: request, answer and files.
@@ -139,9 +140,7 @@ TEST(Countersinks, WithoutALandAllRoundHaveNoStep) {
 }
 
 TEST(Countersinks, HaveNoPulsesOfATorchThatDoesNotLeanAcross) {
-  auto job = example("pulse-schedules/two-ends-and-four-holes-of-a-part.json");
-  job = with(std::move(job), "part", sunk_part(kRoundTube, bolt(R"("phi_deg": 0)")));
-  const auto answer = post("/v1/pulse-schedules", job);
+  const auto answer = pulses_of(sunk_part(kRoundTube, bolt(R"("phi_deg": 0)")));
   ASSERT_TRUE(answer.outcome.error);
   EXPECT_NE(answer.outcome.body.find("/part/cutouts/0/countersink"), std::string::npos)
       << answer.outcome.body.substr(0, 600);

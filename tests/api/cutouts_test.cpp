@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/angle.hpp"
+#include "tests/api/part_pulses.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {
@@ -314,11 +315,9 @@ TEST(Cutouts, ASlitIsRefusedWhereOnePassDoesNotMakeIt) {
             "unsupported_combination /cutouts/0/shape/angle_deg");
   EXPECT_EQ(refused(R"("shape": {"kind": "slit", "length_mm": 40})", 0.0),
             "out_of_range /cutouts/0/shape");
-  auto job = example("pulse-schedules/two-ends-and-four-holes-of-a-part.json");
-  job = with(std::move(job), "part",
-             part_with(list(R"({"id": "s", "shape": {"kind": "slit", "length_mm": 40},
-                               "at": {"z_mm": 200, "phi_deg": 40}})")));
-  const auto pulses = post("/v1/pulse-schedules", job);
+  const auto pulses =
+      pulses_of(part_with(list(R"({"id": "s", "shape": {"kind": "slit", "length_mm": 40},
+                                   "at": {"z_mm": 200, "phi_deg": 40}})")));
   ASSERT_TRUE(pulses.outcome.error);
   EXPECT_NE(pulses.outcome.body.find("/part/cutouts/0/shape/kind"), std::string::npos)
       << pulses.outcome.body.substr(0, 600);

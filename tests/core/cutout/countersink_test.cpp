@@ -11,6 +11,7 @@
 #include "core/math/quadrature.hpp"
 #include "core/part/part.hpp"
 #include "core/part/section/section_part.hpp"
+#include "tests/core/cutout/square_ends.hpp"
 #include "tests/support/golden.hpp"
 
 /// Countersinks: an independent program, closed forms, and what holds of any cone.
@@ -255,15 +256,8 @@ TEST(Countersink, IsRefusedAtItsOwnFields) {
 
 part::PartSpec plain(std::vector<Spec> cutouts) {
   part::PartSpec out{.target = {.outer_radius = 44.45, .wall = 5.0, .length = 400.0}};
-  for (auto* end : {&out.start, &out.finish}) {
-    end->cut.target = out.target;
-    end->cut.partners = {joint::PlaneCutter{{0, 0, 0}, {0, 0, 1}}};
-    end->cut.groove = bevel::SquareCut{};
-    end->cut.contact = bevel::Contact::automatic;
-    end->cut.smoothing = bevel::NoSmoothing{};
-    end->cut.sampling.tolerance = joint::Tolerance{.value = 0.05};
-    end->welded = false;
-  }
+  testing::make_ends_square(out);
+  out.start.cut.target = out.finish.cut.target = out.target;
   out.cutouts.all = std::move(cutouts);
   out.cutouts.kerf = 1.5;
   return out;

@@ -8,6 +8,7 @@
 #include "core/part/part.hpp"
 #include "core/part/section/section_part.hpp"
 #include "core/torch/torch_program.hpp"
+#include "tests/core/cutout/square_ends.hpp"
 
 /// Slits: what one pass of the beam takes, and the torch's way along it.
 namespace tubecut::testing {
@@ -104,15 +105,8 @@ TEST(Slit, IsRefusedAtItsOwnFields) {
 TEST(Slit, TheTorchGoesFromItsPierceToAnEnd) {
   for (const auto pierce : {Slit::Pierce::middle, Slit::Pierce::end}) {
     part::PartSpec spec{.target = kSlitTube};
-    for (auto* end : {&spec.start, &spec.finish}) {
-      end->cut.target = spec.target;
-      end->cut.partners = {joint::PlaneCutter{{0, 0, 0}, {0, 0, 1}}};
-      end->cut.groove = bevel::SquareCut{};
-      end->cut.contact = bevel::Contact::automatic;
-      end->cut.smoothing = bevel::NoSmoothing{};
-      end->cut.sampling.tolerance = joint::Tolerance{.value = 0.05};
-      end->welded = false;
-    }
+    testing::make_ends_square(spec);
+    spec.start.cut.target = spec.finish.cut.target = spec.target;
     spec.cutouts.all = {slit_of(20.0, 1.5)};
     std::get<Slit>(spec.cutouts.all[0].shape).pierce = pierce;
     spec.cutouts.kerf = 1.5;

@@ -6,6 +6,7 @@
 
 #include "core/cutout/rows.hpp"
 #include "core/part/section/section_part.hpp"
+#include "tests/core/cutout/square_ends.hpp"
 #include "tests/core/section/golden_ends.hpp"
 
 /// Cut-outs on the flats of tubes that are not round: an independent program, closed forms, and the
@@ -31,14 +32,7 @@ section::Section drawn_section(Random& random) {
 /// A part with square ends: z counts from the start.
 part::SectionPartSpec plain_part(const section::Section& section, std::vector<Spec> cutouts) {
   part::SectionPartSpec out{.section = section, .length = 1000.0};
-  for (auto* end : {&out.start, &out.finish}) {
-    end->cut.partners = {joint::PlaneCutter{{0, 0, 0}, {0, 0, 1}}};
-    end->cut.groove = bevel::SquareCut{};
-    end->cut.contact = bevel::Contact::automatic;
-    end->cut.smoothing = bevel::NoSmoothing{};
-    end->cut.sampling.tolerance = joint::Tolerance{.value = 0.05};
-    end->welded = false;
-  }
+  testing::make_ends_square(out);
   out.cutouts.all = std::move(cutouts);
   out.cutouts.kerf = 1.5;
   return out;
