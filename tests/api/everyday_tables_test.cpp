@@ -280,6 +280,21 @@ TEST(EverydayTables, ThreeRoundTubesMeetAtThePlanesBetweenThem) {
   }
 }
 
+/// The parts of mitred corners, and of posts that end flat on them, are the answers to their own
+/// requests, as a shop sends them next.
+TEST(EverydayTables, PartsOfABoxAreThoseOfTheirOwnRequests) {
+  for (const auto* bar : {&kLegs[0], &kLegs[2]}) {
+    const auto answer = post("/v1/frames", box_of(*bar, 23.7, 1));
+    ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+    for (const auto& one : *at(answer.body, "parts").as<Json::Array>()) {
+      const auto again = post("/v1/parts", at(one, "answer/request"));
+      ASSERT_FALSE(again.outcome.error) << again.outcome.body.substr(0, 800);
+      EXPECT_EQ(text(again.body, "job/result_sha256"), text(one, "answer/job/result_sha256"))
+          << bar->section << " " << text(one, "part");
+    }
+  }
+}
+
 /// The legs of a pyramid are one part, whatever their order: each ends at the planes between it and
 /// the others.
 TEST(EverydayTables, LegsOfAPyramidMeetAtThePlanesBetweenThem) {
