@@ -27,7 +27,7 @@ bool is_box_corner(const NodeSpec& spec, const std::vector<std::size_t>& ends) {
   return true;
 }
 
-/// What both ends of a pair are, in space.
+/// Two ends in space, and where their axes meet.
 struct Corner {
   const Member& a;
   const Member& b;
@@ -41,9 +41,8 @@ Corner corner_of(const NodeSpec& spec, const EndPair& pair) {
   const auto& b = spec.members[pair.second / 2];
   const auto p = end_of(pair.first), q = end_of(pair.second);
   Corner out{a, b, a.into(p).normalized(), b.into(q).normalized(), {}};
-  const Vector3d n = out.u.cross(out.v), w = b.at(q) - a.at(p);
-  const double square = n.squaredNorm();
-  const double s = w.cross(out.v).dot(n) / square, t = w.cross(out.u).dot(n) / square;
+  const Vector3d w = b.at(q) - a.at(p);
+  const auto [s, t] = meeting(spec, pair.first, pair.second);
   out.point = a.at(p) + 0.5 * (w + t * out.v + s * out.u);
   out.off = 0.5 * (w + t * out.v - s * out.u).norm();
   out.furthest = std::max(std::abs(s), std::abs(t));

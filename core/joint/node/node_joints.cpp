@@ -91,31 +91,6 @@ std::pair<std::size_t, std::size_t> facing_ends(const NodeSpec& spec, std::size_
   return out;
 }
 
-/// The distances from either end along its own axis to where two mitred axes meet. The plane
-/// between them passes midway between the two points.
-struct Meeting {
-  double s, t;
-};
-
-/// Computes where the axes are nearest to each other. If the members are in line, the rounding of
-/// the coordinates hides that point (0.01 mm of offset and 0.01 deg out of line move it 57 mm from
-/// the ends). In line, and nearly in line if that point is further from the ends than their
-/// distance and the tubes' thickness, the plane midway between the ends meets either axis there.
-Meeting meeting(const NodeSpec& spec, std::size_t p, std::size_t q) {
-  const Vector3d w = point_of(spec, q) - point_of(spec, p);
-  const Vector3d u = into(spec, p), v = into(spec, q);
-  const Vector3d n = u.cross(v);
-  const double square = n.squaredNorm();
-  const double midway = 0.5 * w.dot(u - v) / (1.0 - u.dot(v));
-  const bool opposed = u.dot(v) < 0.0;
-  if (opposed && !(square >= kInLine * kInLine)) return {midway, midway};
-  const Meeting nearest{w.cross(v).dot(n) / square, w.cross(u).dot(n) / square};
-  const double near = w.norm() + std::max(spec.members[p / 2].reach(), spec.members[q / 2].reach());
-  const bool far = std::max(std::abs(nearest.s), std::abs(nearest.t)) > near;
-  return opposed && square < kNearParallel * kNearParallel && far ? Meeting{midway, midway}
-                                                                  : nearest;
-}
-
 void join(Joined& joined, const NodeSpec& spec, std::size_t end, std::size_t other) {
   auto& touches = joined[end];
   const auto at = std::ranges::lower_bound(touches, other, {}, &Touch::other);
@@ -281,6 +256,25 @@ Result<Applied> apply_joints(const NodeSpec& spec, const Lines& lines, Joined& j
     TRY(apply(spec, lines, i, joined, out));
   }
   return out;
+}
+
+/// Computes where the axes are nearest to each other. If the members are in line, the rounding of
+/// the coordinates hides that point (0.01 mm of offset and 0.01 deg out of line move it 57 mm from
+/// the ends). In line, and nearly in line if that point is further from the ends than their
+/// distance and the tubes' thickness, the plane midway between the ends meets either axis there.
+std::pair<double, double> meeting(const NodeSpec& spec, std::size_t p, std::size_t q) {
+  const Vector3d w = point_of(spec, q) - point_of(spec, p);
+  const Vector3d u = into(spec, p), v = into(spec, q);
+  const Vector3d n = u.cross(v);
+  const double square = n.squaredNorm();
+  const double midway = 0.5 * w.dot(u - v) / (1.0 - u.dot(v));
+  const bool opposed = u.dot(v) < 0.0;
+  if (opposed && !(square >= kInLine * kInLine)) return {midway, midway};
+  const std::pair nearest{w.cross(v).dot(n) / square, w.cross(u).dot(n) / square};
+  const double near = w.norm() + std::max(spec.members[p / 2].reach(), spec.members[q / 2].reach());
+  const bool far = std::max(std::abs(nearest.first), std::abs(nearest.second)) > near;
+  return opposed && square < kNearParallel * kNearParallel && far ? std::pair{midway, midway}
+                                                                  : nearest;
 }
 
 bool is_set_on(const Applied& applied, std::size_t member, std::size_t other) {

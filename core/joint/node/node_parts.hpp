@@ -112,6 +112,9 @@ void part_passing(const NodeSpec& spec, Joined& joined);
 /// Mitres the ends in line without a stated joint and without anything between them.
 void join_lines(const NodeSpec& spec, const Lines& lines, Joined& joined, Applied& out);
 
+/// Returns the distances from either end along its own axis to where two mitred axes meet, mm. The
+/// plane between them passes midway between the two points.
+[[nodiscard]] std::pair<double, double> meeting(const NodeSpec& spec, std::size_t p, std::size_t q);
 /// Mitres two ends of two members without a joint, which join nowhere else.
 void mitre_ends(const NodeSpec& spec, std::size_t p, std::size_t q, Joined& joined, Applied& out);
 
