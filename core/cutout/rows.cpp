@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/cutout/cone.hpp"
 #include "core/cutout/cutout.hpp"
@@ -219,7 +220,9 @@ Result<void> check_line(const std::vector<Row>& rows) {
   double twice = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i)
     twice += cross(rows[i].torch, rows[(i + 1) % rows.size()].torch);
-  if (twice > 0.0 && !(math::crossed_area(line) > kLineCrossed * twice)) return {};
+  const double crossed = math::crossed_area(line);
+  if (stopped()) return fail({.code = ErrorCode::cancelled});  // because the area is half summed
+  if (twice > 0.0 && !(crossed > kLineCrossed * twice)) return {};
   return fail({.code = ErrorCode::out_of_range, .hint = "somewhere it is narrower than the kerf"});
 }
 

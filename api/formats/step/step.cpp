@@ -54,12 +54,19 @@ TubeCut hole_cut(const joint::Target& tube, const bevel::Hole& hole, std::string
 
 constexpr double kCloseRows = 1e-3;  // mm
 
+/// The rows of a mould that the part was cut by, so nothing but a stop of the job refuses them.
+bevel::Hole close_rows(const cutout::Mould& mould) {
+  auto rows = cutout::rows(mould, {.tolerance = kCloseRows});
+  if (!rows) ask();
+  return std::move(rows).value();
+}
+
 /// A cone's mould by close rows: lines across its wall are those of the cone and of its circle.
 WallCurve cone_curve(const joint::Target& tube, const cutout::Mould& mould, double turn, double z,
                      const Caption& caption) {
   ask();
   const auto& cone = *mould.cone;
-  auto rows = cutout::rows(mould, {.tolerance = kCloseRows}).value();
+  auto rows = close_rows(mould);
   const double met = tube.outer_radius - cone.depth();
   std::vector<double> land_phi, land_z;
   for (std::size_t i = 0; i < rows.phi.size(); ++i) {
@@ -84,7 +91,7 @@ WallCurve cutout_curve(const joint::Target& tube, const cutout::Mould& mould, do
                        const Caption& caption) {
   ask();
   constexpr double kAtCorner = 1e-9;  // mm
-  auto rows = cutout::rows(mould, {.tolerance = kCloseRows}).value();
+  auto rows = close_rows(mould);
   std::vector<bool> corners;
   for (std::size_t i = 0; i < rows.phi.size(); ++i)
     corners.push_back(

@@ -130,5 +130,23 @@ TEST(Slit, TheTorchGoesFromItsPierceToAnEnd) {
   }
 }
 
+/// A wrong refusal of what the part was cut by made a 500 of an answer that was over its budget.
+TEST(Slit, RowsOfAStoppedJobAreCancelled) {
+  const Ground ground{.tube = kSlitTube, .section = {}, .kerf = 1.5};
+  auto round = slit_of(24.0, 1.5);
+  round.shape = Circle{.diameter = 20.0};
+  for (const auto& spec : {slit_of(24.0, 1.5), round}) {
+    const auto layout = lay({spec}, ground).value();
+    const auto& mould = layout.moulds[0];
+    ASSERT_TRUE(rows(mould, {.kerf = 1.5, .tolerance = 0.01}));
+    std::stop_source job;
+    const StopScope scope(job.get_token());
+    job.request_stop();
+    const auto stopped_rows = rows(mould, {.kerf = 1.5, .tolerance = 0.01});
+    ASSERT_FALSE(stopped_rows);
+    EXPECT_EQ(stopped_rows.error().issues.front().code, ErrorCode::cancelled);
+  }
+}
+
 }  // namespace
 }  // namespace tubecut::testing
