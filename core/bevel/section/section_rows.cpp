@@ -109,10 +109,10 @@ class Maker {
     double s;  // outside
     const joint::SectionEvent* event;
   };
-  /// Not the datum's far side.
+  /// Not the datum's far side, where the root's own place is 0 already.
   [[nodiscard]] double turned(double s) const {
     const double out = s - girth_ * std::floor(s / girth_);
-    return out < girth_ ? out : 0.0;
+    return out < girth_ - kSamePlace ? out : 0.0;
   }
   [[nodiscard]] double distance(double a, double b) const {
     const double d = std::abs(turned(a) - turned(b));
@@ -147,7 +147,7 @@ class Maker {
   }
 
   [[nodiscard]] SectionRow row_at(double s, std::size_t cutter) const {
-    SectionRow row{.at = outline_.at(s), .across = {}, .point = {}};
+    SectionRow row{.at = outline_.at(turned(s)), .across = {}, .point = {}};
     row.across = g_.wall.across(row.at);
     row.before = row.after = cutter;
     row.z = g_.root().height(cutter, g_.root_station(row.at));

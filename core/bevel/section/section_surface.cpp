@@ -88,7 +88,8 @@ double SectionSurface::beam_reach(double kerf) const {
 }
 
 double SectionSurface::z(const Line& line, double depth) const {
-  const double from_bore = line.wall - depth;  // outwards
+  // A wall that is thinner than the depth by its rounding ends at the bore.
+  const double from_bore = std::max(0.0, line.wall - depth);  // outwards
   if (from_bore >= land())
     return math::mixed(line.face, line.outer, (from_bore - land()) / (line.wall - land()));
   return math::mixed(line.inner, line.face, from_bore / land());

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/base/stop.hpp"
 #include "core/cutout/cutout.hpp"
 #include "core/math/cylinder.hpp"
 #include "core/part/part.hpp"
