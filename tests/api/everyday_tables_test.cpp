@@ -437,4 +437,57 @@ TEST(EverydayTables, StilesOfATurnedLadderAreOnePart) {
   }
 }
 
+/// Three equal tubes meet at one node of a truss, in one plane: the outer two are mitred, and the
+/// one between them ends on both. The list does not decide.
+TEST(EverydayTables, ADiagonalInACornerEndsOnTheTwoMitredTubes) {
+  const std::vector<std::string> all{
+      R"({"id": "post", "start_mm": [0, 0, 0], "end_mm": [0, 0, 800],
+          "size": "SHS 50x50x3 EN 10219", "up": [1, 0, 0]})",
+      R"({"id": "diagonal", "start_mm": [0, 0, 0], "end_mm": [1000, 0, 800],
+          "size": "SHS 50x50x3 EN 10219", "up": [0, 1, 0]})",
+      R"({"id": "rail", "start_mm": [0, 0, 0], "end_mm": [2000, 0, 0],
+          "size": "SHS 50x50x3 EN 10219", "up": [0, 0, 1]})"};
+  std::vector<std::size_t> order{0, 1, 2};
+  std::set<std::multiset<double>> lengths;
+  do {
+    std::string members;
+    for (const auto i : order) members += (members.empty() ? "" : ",") + all[i];
+    const auto answer = post("/v1/frames", *api::parse(R"({"kerf_mm": 1, "connect":
+        {"within_mm": 2}, "defaults": {"root_surface": "inner", "groove": {"rule":
+        "half_dihedral"}, "smoothing": {"method": "none"}, "contact": "auto"}, "members": [)" +
+                                                       members + "]}"));
+    ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+    EXPECT_EQ(text(answer.body, "verdict/status"), "ok");
+    std::multiset<double> rounded;
+    for (const double one : lengths_of(answer)) rounded.insert(std::round(one * 1e6) / 1e6);
+    lengths.insert(rounded);
+  } while (std::ranges::next_permutation(order).found);
+  EXPECT_EQ(lengths.size(), 1u);
+  EXPECT_LT(*lengths.begin()->rbegin(), 2025.0 + 1e-6) << "no tip stands out below the rail";
+}
+
+/// A purlin that lies on a beam touches it along a face and is cut by nothing: it has its part.
+TEST(EverydayTables, ATubeThatLiesOnAnotherIsNotCutByIt) {
+  const std::string beam = R"({"id": "beam", "start_mm": [0, 0, 0], "end_mm": [2000, 0, 0],
+      "size": "RHS 100x50x4 EN 10219", "up": [0, 1, 0]})";
+  const auto purlin = [](double z, const std::string& section) {
+    const auto height = std::to_string(z);
+    return R"({"id": "purlin", "start_mm": [500, 0, )" + height + R"(], "end_mm": [500, 1500, )" +
+           height + "], " + section + "}";
+  };
+  for (const auto& one : {purlin(50, R"("size": "SHS 50x50x3 EN 10219", "up": [0, 0, 1])"),
+                          purlin(41.85, R"("outer_diameter_mm": 33.7, "wall_mm": 3)")})
+    for (const bool first : {true, false}) {
+      const auto answer =
+          post("/v1/frames", *api::parse(R"({"preset": "tube_laser", "kerf_mm": 0.2, "connect":
+              {"within_mm": 2}, "members": [)" +
+                                         (first ? beam : one) + "," + (first ? one : beam) + "]}"));
+      ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+      EXPECT_EQ(at(answer.body, "parts").as<Json::Array>()->size(), 2u);
+      EXPECT_NEAR(*lengths_of(answer).begin(), 1500.0, 1e-9);
+      EXPECT_EQ(answer.outcome.body.find("no_contact"), std::string::npos);
+      EXPECT_EQ(answer.outcome.body.find("end_open"), std::string::npos);
+    }
+}
+
 }  // namespace tubecut::testing::everyday_tables

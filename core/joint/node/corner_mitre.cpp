@@ -27,6 +27,24 @@ bool is_box_corner(const NodeSpec& spec, const std::vector<std::size_t>& ends) {
   return true;
 }
 
+/// Returns which of three ends leaves the corner between the two others, in their plane.
+std::optional<std::size_t> middle_of(const NodeSpec& spec, const std::vector<std::size_t>& ends) {
+  constexpr double kFlat = 1e-3;  // sine
+  if (ends.size() != 3) return std::nullopt;
+  const auto into = [&](std::size_t k) {
+    const auto at = ends[k % 3];
+    return Vector3d(spec.members[at / 2].into(end_of(at)).normalized());
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d before = into(k + 1).cross(into(k)), after = into(k).cross(into(k + 2));
+    const Vector3d whole = into(k + 1).cross(into(k + 2));
+    if (before.dot(after) > 0.0 && before.dot(whole) > 0.0 && before.norm() > kFlat &&
+        after.norm() > kFlat && std::abs(into(k).dot(whole)) < kFlat)
+      return k;
+  }
+  return std::nullopt;
+}
+
 /// Two ends in space, and where their axes meet.
 struct Corner {
   const Member& a;
@@ -232,6 +250,21 @@ std::vector<std::size_t> meeting_at(const NodeSpec& spec, const Joined& joined, 
   return lines.mates[end] ? std::vector<std::size_t>() : out;
 }
 
+/// Returns which of the ends of a box's corner stands on the two others: their plane is flattest.
+std::size_t flattest_post(const NodeSpec& spec, const std::vector<std::size_t>& ends) {
+  const auto rise = [&](std::size_t k) {  // of the plane of the two others
+    const auto into = [&](std::size_t i) {
+      const auto at = ends[(k + i) % 3];
+      return Vector3d(spec.members[at / 2].into(end_of(at)).normalized());
+    };
+    return std::abs(into(1).cross(into(2)).normalized().z());
+  };
+  std::size_t post = 2;
+  for (const std::size_t k : {1, 0})
+    if (rise(k) > rise(post) + kSteeper) post = k;
+  return post;
+}
+
 }  // namespace
 
 std::set<Applied::Pair> posts_on_corners(const NodeSpec& spec, const Joined& joined,
@@ -241,20 +274,12 @@ std::set<Applied::Pair> posts_on_corners(const NodeSpec& spec, const Joined& joi
   if (within == nullptr) return out;
   for (std::size_t end = 0; end < joined.size(); ++end) {
     const auto ends = meeting_at(spec, joined, lines, end, std::max(within->distance, kBesideMost));
-    if (!is_box_corner(spec, ends)) continue;
-    const auto rise = [&](std::size_t k) {  // of the plane of the two others
-      const auto into = [&](std::size_t i) {
-        const auto at = ends[(k + i) % 3];
-        return Vector3d(spec.members[at / 2].into(end_of(at)).normalized());
-      };
-      return std::abs(into(1).cross(into(2)).normalized().z());
-    };
-    std::size_t post = 2;
-    for (const std::size_t k : {1, 0})
-      if (rise(k) > rise(post) + kSteeper) post = k;
+    auto post = middle_of(spec, ends);
+    if (!post && is_box_corner(spec, ends)) post = flattest_post(spec, ends);
+    if (!post) continue;
     for (const auto at : ends)
-      if (at != ends[post] && !lines.first.contains({ends[post] / 2, at / 2}))
-        out.insert({at / 2, ends[post] / 2});
+      if (at != ends[*post] && !lines.first.contains({ends[*post] / 2, at / 2}))
+        out.insert({at / 2, ends[*post] / 2});
   }
   return out;
 }

@@ -234,16 +234,21 @@ Result<MemberEnd> place_end(const NodeSpec& spec, std::size_t index, const Aroun
 std::optional<Warning> no_cutter(const NodeSpec& spec, const MemberEnd& end, const Around& around,
                                  std::size_t index, const Presence& seen) {
   const auto& cut = end.cut_by[index];
-  if (cut.plane || !(seen.anywhere || seen.flush)) return std::nullopt;
+  const auto pair = std::minmax(end.member, cut.member);
+  const bool stated = around.applied.joints.contains(pair) && !around.applied.found.contains(pair);
+  const bool found = !stated && std::holds_alternative<Within>(spec.connect);
   const auto at = place_of(end.member, end.end);
+  if (found && !cut.plane && seen.beside)
+    return Warning{WarningCode::free_end, at,
+                   called(spec, end.member) + " meets no member here: it passes beside " +
+                       called(spec, cut.member)};
+  if (cut.plane || !(seen.anywhere || seen.flush)) return std::nullopt;
   const double sine = sine_between(spec.members[end.member], spec.members[cut.member]);
   if (seen.consumes && sine < detail::kNearParallel)
     return Warning{WarningCode::parallel_members, at,
                    parallel_to(spec, end.member, cut.member) + " and does not cut it: the cut " +
                        "would begin " + brief(seen.highest) + " mm from the end"};
-  const auto pair = std::minmax(end.member, cut.member);
-  const bool stated = around.applied.joints.contains(pair) && !around.applied.found.contains(pair);
-  if (stated || seen.there || !std::holds_alternative<Within>(spec.connect)) return std::nullopt;
+  if (!found || seen.there) return std::nullopt;
   return Warning{WarningCode::free_end, at,
                  called(spec, end.member) + " meets no member here: " + called(spec, cut.member) +
                      " ends " + brief(seen.nearest) + " mm before it would cut it"};

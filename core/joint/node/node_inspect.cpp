@@ -97,6 +97,18 @@ class EndInspection {
         see(top->cutter, line, *at);
     }
   }
+  /// Finds the partners that pass beside the member or only touch its surfaces.
+  void see_beside(std::span<const PreparedCutter> cutters,
+                  const std::vector<std::vector<Generator>>& inside) {
+    for (std::size_t i = 0; i < cutters.size(); ++i)
+      seen_[i].beside = std::ranges::none_of(inside, [&](const auto& lines) {
+        return std::ranges::any_of(
+            lines, [&](const Generator& line) { return hit(cutters[i], line).has_value(); });
+      });
+  }
+  [[nodiscard]] bool some_unseen() const {
+    return !std::ranges::all_of(seen_, &Presence::anywhere);
+  }
   void all_there() {
     for (auto& one : seen_) one.anywhere = one.there = true;
   }
@@ -281,6 +293,12 @@ std::vector<Presence> inspect(const Joints& joints, MemberEnd& end) {
       inspection.scan(cutters, surface.smaller ? lines_on(*surface.smaller) : lines_on(rho),
                       length);
   }
+  if (!end.open && !inspection.some_unseen()) return inspection.take();
+  std::vector<std::vector<Generator>> inside;
+  for (const auto& surface : surfaces_of(m))
+    inside.push_back(surface.smaller ? lines_on(*surface.smaller)
+                                     : lines_on(surface.reach - kSlightOverhang));
+  inspection.see_beside(cutters, inside);
   return inspection.take();
 }
 
