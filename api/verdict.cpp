@@ -1,6 +1,7 @@
 #include "api/verdict.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "api/wire/field_names.hpp"
@@ -94,9 +95,10 @@ Verdict judge(const std::vector<Warning>& warnings, const Json& request,
   for (const auto& bound : accepted)
     for (const auto& measure : measures) {
       const bool least = is_least(bound.name);
-      if (measure.name != bound.name ||
-          (least ? measure.value >= bound.value : measure.value <= bound.value))
-        continue;
+      const double rest = measure.value - bound.value;
+      // Because 5 mm, computed, may be 4.999999999999999 mm.
+      const double rounding = 1e-9 * (1.0 + std::abs(bound.value));
+      if (measure.name != bound.name || (least ? rest >= -rounding : rest <= rounding)) continue;
       out.status = "reject";
       add_once(out.reasons, std::string(bound.name) + ": " + brief(measure.value) +
                                 std::string(least ? kBelow : kAbove) + brief(bound.value));

@@ -89,5 +89,20 @@ TEST(Verdict, EveryEndpointReportsAGhost) {
   }
 }
 
+/// 9.2 less 4.2 is 4.999999999999999: a value that equals its limit but for rounding meets it.
+TEST(Verdict, RoundingIsNoReasonToReject) {
+  const double value = 9.2 - 4.2;
+  ASSERT_LT(value, 5.0);
+  EXPECT_EQ(api::judge({}, Json{}, {{"min_web_mm", value}}, {{"min_web_mm", 5.0}}).status, "ok");
+  EXPECT_EQ(api::judge({}, Json{}, {{"min_web_mm", 4.99999}}, {{"min_web_mm", 5.0}}).status,
+            "reject");
+  EXPECT_EQ(
+      api::judge({}, Json{}, {{"max_root_gap_mm", 3.0 + 1e-15}}, {{"max_root_gap_mm", 3.0}}).status,
+      "ok");
+  EXPECT_EQ(
+      api::judge({}, Json{}, {{"max_root_gap_mm", 3.00001}}, {{"max_root_gap_mm", 3.0}}).status,
+      "reject");
+}
+
 }  // namespace
 }  // namespace tubecut::testing

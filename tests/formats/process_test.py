@@ -81,6 +81,17 @@ class FromTheTable(FormatTest):
                 count += 1
         self.assertGreater(count, 3)
 
+    def test_a_wall_as_thick_as_a_row_allows_takes_that_row(self):
+        """Whatever the diameter: the metal between two radii is the wall but for rounding."""
+        rows = self.machine("tube_table")["process"]["rows"]
+        tubes = [{"outer_diameter_mm": d, "wall_mm": t} for d in (42.4, 48.3, 60.3, 76.1, 88.9, 101.6, 114.3, 168.3) for t in (2, 4, 6)]
+        tubes += [{"kind": "rectangular_tube", "height_mm": 100, "width_mm": 60, "wall_mm": t, "corner_radius_mm": 2.5 * t} for t in (2, 4, 6)]
+        for tube in tubes:
+            body = {"preset": "tube_laser", "target": tube | {"length_mm": 400}, "ends": {end: {"square_at_mm": 0} for end in ("start", "finish")}, "kerf_mm": 0.2}
+            row = min((r for r in rows if r["metal_max_mm"] >= tube["wall_mm"]), key=lambda r: r["metal_max_mm"])
+            program = self.service.text("parts", body, query({"format": "gcode", "machine": "tube_table", "material": "steel"})).decode()
+            self.assertIn(f"(process: steel up to {row['metal_max_mm']:g} mm,", program, tube)
+
     def test_what_is_said_goes_first(self):
         body = examples("parts")["chord-with-holes"]
         program = self.service.text("parts", body, query(OF_TABLE | {"speed_mm_min": 700, "pierce_delay_s": 0.9, "torch": "on"})).decode()

@@ -29,11 +29,12 @@ double thickest(const TorchJob& job) {
 }
 
 const ProcessRow& row_for(const MachineProcess& process, double metal) {
+  constexpr double kRounding = 1e-9;  // mm, of the metal between two radii
   const ProcessRow* best = nullptr;
   double most = 0.0;
   for (const auto& row : process.rows) {
     most = std::max(most, row.metal);
-    if (row.metal >= metal && (best == nullptr || row.metal < best->metal)) best = &row;
+    if (row.metal >= metal - kRounding && (best == nullptr || row.metal < best->metal)) best = &row;
   }
   if (best != nullptr) return *best;
   throw UnfitOption{"material", process.rows.front().material + " of " + process.machine +
