@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/angle.hpp"
@@ -42,6 +43,22 @@ const joint::PlaneCutter* only_plane(const bevel::TableSpec& spec) {
                                    : nullptr;
 }
 
+/// Returns that plane if the outer edge lies in it: else a saw along it would cut another length.
+const joint::PlaneCutter* sawn_plane(const SectionEnd& end) {
+  constexpr double kSawn = 0.05;  // mm
+  const auto* plane = only_plane(end.spec);
+  if (plane == nullptr) return nullptr;
+  const Eigen::Vector3d normal = plane->normal.normalized();
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = 0; i < end.own.at.size(); ++i) {
+    const auto& p = end.own.at[i].point;
+    const double off = normal.dot(Eigen::Vector3d(p.x(), p.y(), end.own.z_outer[i]) - plane->point);
+    low = std::min(low, off);
+    high = std::max(high, off);
+  }
+  return high - low <= kSawn ? plane : nullptr;
+}
+
 /// Measures the end on the middle of each face and corner, and across each face.
 void measure_faces(const section::Curve& outer, bool finish, SectionEnd& end) {
   const auto edge = outer_edge(end.table);
@@ -51,7 +68,7 @@ void measure_faces(const section::Curve& outer, bool finish, SectionEnd& end) {
     const auto span = edge.at(s / girth * kTwoPi);
     return finish ? span.low : span.high;
   };
-  const auto* plane = only_plane(end.spec);
+  const auto* plane = sawn_plane(end);
   for (int face = 1; face <= 4; ++face) {
     auto& cut = end.faces[static_cast<std::size_t>(face - 1)];
     const double half = outer.half_flat(face);
