@@ -77,10 +77,10 @@ std::string in_words(const cutout::Pattern& pattern, const WayText& way) {
 namespace {
 
 /// `position` states where an instance lies round the tube.
-template <class PositionText>
+template <class PositionText, class WayOnSide>
 void draw_cutout_rows(OrderSheets& sheets, const std::vector<cutout::Spec>& specs,
                       const cutout::Layout& layout, double longest, const PositionText& position,
-                      const WayText& way) {
+                      const WayOnSide& way) {
   if (layout.empty()) return;
   constexpr double kRow = 6.4;
   draw_head(sheets, "Cut-outs: anchor of the first of each, outside, in mm",
@@ -107,7 +107,8 @@ void draw_cutout_rows(OrderSheets& sheets, const std::vector<cutout::Spec>& spec
     put(22.0, 2.9, mould.cone ? in_words(*mould.cone) : in_words(asked), 43.0);
     put(66.0, 2.9, number(one.z, Unit::mm) + "; " + number(longest - one.z, Unit::mm), 33.0);
     put(100.0, 2.9, position(one), 15.0);
-    put(116.0, 2.9, in_words(asked.pattern, way), 45.0);
+    const bool far = mould.laying.far();
+    put(116.0, 2.9, in_words(asked.pattern, [&](double turn) { return way(turn, far); }), 45.0);
     draw_box(canvas, top, kRow);
     draw_row_line(canvas, top - kRow);
   }
@@ -123,7 +124,7 @@ void draw_cutouts(OrderSheets& sheets, const part::PartSpec& spec, const part::P
         const double middle = turned_from(0.0, one.phi + laying.phase(0.0));
         return number(spec.target.outer_radius * middle, Unit::mm);
       },
-      [](double turn) { return degrees(turn); });
+      [](double turn, bool) { return degrees(turn); });
 }
 
 void draw_cutouts(OrderSheets& sheets, const part::SectionPartSpec& spec,
@@ -134,8 +135,9 @@ void draw_cutouts(OrderSheets& sheets, const part::SectionPartSpec& spec,
         return "face " + std::to_string(one.face) +
                (one.offset == 0.0 ? "" : ", " + number(one.offset, Unit::mm));
       },
-      [girth = spec.section.outer().girth()](double turn) {
-        return number(turn / kTwoPi * girth, Unit::mm) + " across";
+      // The girth of the opposite face grows the other way across.
+      [girth = spec.section.outer().girth()](double turn, bool far) {
+        return number((far ? 0.0 - turn : turn) / kTwoPi * girth, Unit::mm) + " across";
       });
 }
 
