@@ -1,6 +1,7 @@
 /** Frames: every part by itself, every joint in the world, and the cut list. */
 import {axisOfMember, byId, endOf, mitrePlane} from './nodes.js';
 import {checkPart} from './parts.js';
+import {checkSectionPart} from './section_parts.js';
 import {Scope} from './report.js';
 import {type Body, boxOf, girthOf, isSection, onOutline, plane, sectionOf, type Solid, sizeOf, solid, tube} from './solids.js';
 import {add, type Frame, lineDistance, mul, norm, onTube, RAD, skew, sub, toWorld, type V3} from './space.js';
@@ -18,7 +19,7 @@ export function checkFrame(scope: Scope, answer: Body, know: Knowledge): void {
     const inner = part.answer as Body;
     made.set(String(part.part), inner);
     const own = new Scope(scope.report, '/parts/*/answer/result', `${part.part}: `);
-    if ((inner.result as Body).section) own.not('', 'of tubes that are not round only the joints in the world are looked at');
+    if ((inner.result as Body).section) checkSectionPart(own, inner.request as Body, inner.result as Body, know);
     else checkPart(own, inner.request as Body, inner.result as Body, know);
   }
   checkCutList(scope, request, result, made, know);

@@ -7,11 +7,14 @@ import {checkGroove} from './grooves.js';
 import {checkHoles} from './holes.js';
 import {checkMill} from './mills.js';
 import {checkNodes, cutOfNode} from './nodes.js';
+import {boreOf, checkSection, outsideOf} from './outline.js';
 import {checkPart} from './parts.js';
 import {checkProfile} from './profiles.js';
 import {type Check, Report, Scope} from './report.js';
 import {checkReplay, checkSchedule} from './schedules.js';
-import {type Body, isSection, type Section, type Size} from './solids.js';
+import {checkSectionEnd, checkSectionProfile} from './section_ends.js';
+import {checkSectionPart} from './section_parts.js';
+import {type Body, isSection, type Section, sectionOf, type Size} from './solids.js';
 import {checkEnd, cutOf, type Knowledge, machineOf} from './tables.js';
 
 export type {Check} from './report.js';
@@ -67,7 +70,7 @@ function checkResult(scope: Scope, endpoint: string, answer: Body, know: Knowled
   const [request, result] = [answer.request as Body, answer.result as Body];
   const ids = (result.cutter_ids ?? []) as string[];
   if (isSection(targetOf(request))) {
-    scope.not('', 'targets that are not round are not covered');
+    checkSectionResult(scope, endpoint, request, result, know);
     return;
   }
   switch (endpoint) {
@@ -109,6 +112,25 @@ function checkResult(scope: Scope, endpoint: string, answer: Body, know: Knowled
     default:
       scope.not('', `answers of ${endpoint} are not covered`);
   }
+}
+
+/** Of a target that is not round. */
+function checkSectionResult(scope: Scope, endpoint: string, request: Body, result: Body, know: Knowledge): void {
+  const ids = (result.cutter_ids ?? []) as string[];
+  const target = sectionOf(targetOf(request), know.sections);
+  if (endpoint === 'parts') {
+    checkSectionPart(scope, request, result, know);
+    return;
+  }
+  if (endpoint !== 'intersections' && endpoint !== 'bevel-tables') {
+    scope.not('', `answers of ${endpoint} with a target that is not round are not covered`);
+    return;
+  }
+  const cut = request.node ? cutOfNode(request, ids, know) : cutOf(request, know);
+  const whole = {cut, outer: outsideOf(target), bore: boreOf(target)};
+  checkSection(scope, target, result.section as Body);
+  if (endpoint === 'bevel-tables') checkSectionEnd(scope, whole, result, know);
+  else for (const profile of result.profiles as Body[]) checkSectionProfile(scope.under('profiles/*'), whole, profile);
 }
 
 /** Numbers of the result that no check covers. */

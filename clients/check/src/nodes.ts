@@ -4,7 +4,9 @@ import type {Scope} from './report.js';
 import {axisOf, type Body, boxOf, isSection, plane, sectionOf, type Solid, sizeOf, tube} from './solids.js';
 import {add, across, cross, directionIn, dot, type Frame, inFrame, lineDistance, mul, norm, RAD, skew, sub, unit, type V3} from './space.js';
 import {checkProfile} from './profiles.js';
-import {checkEnd, cutBy, type Knowledge} from './tables.js';
+import {boreOf, outsideOf} from './outline.js';
+import {checkSectionEnd, checkSectionProfile} from './section_ends.js';
+import {checkEnd, cutBy, type Knowledge, NO_SIZE} from './tables.js';
 
 export interface Statement {
   kind: string;
@@ -102,7 +104,7 @@ export function cutInFrame(request: Body, members: Body[], target: Body, end: st
     const member = byId(members, id);
     return partnerBy(member, own, stated(target, member) ?? found(own, member), kept, frame, know);
   });
-  const {outer_diameter_mm, wall_mm} = sizeOf(target, know.sizes);
+  const {outer_diameter_mm, wall_mm} = isSection(target) ? NO_SIZE : sizeOf(target, know.sizes);
   return cutBy(request, outer_diameter_mm / 2, wall_mm, solids);
 }
 
@@ -150,7 +152,7 @@ export function checkNodes(scope: Scope, request: Body, result: Body, know: Know
       return partnerBy(other, own, joint, {coating: 0, root: 0}, frame, know);
     });
     if (isSection(target)) {
-      ends.not('', 'members that are not round are looked at as partners only');
+      checkSectionOfNode(ends, request, made, target, partners, {own, frame, know, options});
       continue;
     }
     const {outer_diameter_mm, wall_mm} = sizeOf(target, know.sizes);
@@ -163,6 +165,24 @@ export function checkNodes(scope: Scope, request: Body, result: Body, know: Know
       checkEnd(ends.under('table'), cutBy(options, outer_diameter_mm / 2, wall_mm, solids), made.table as Body, know);
     }
   }
+}
+
+interface Seen {
+  own: [V3, V3];
+  frame: Frame;
+  know: Knowledge;
+  options: Body;
+}
+
+function checkSectionOfNode(ends: Scope, request: Body, made: Body, target: Body, partners: Solid[], {own, frame, know, options}: Seen): void {
+  const section = sectionOf(target, know.sections);
+  const whole = (solids: Solid[]) => ({cut: cutBy(options, 0, 0, solids), outer: outsideOf(section), bore: boreOf(section)});
+  for (const profile of (made.profiles ?? []) as Body[]) checkSectionProfile(ends.under('profiles/*'), whole(partners), profile);
+  if (!made.table) return;
+  const kept = keptOff(options);
+  const members = request.members as Body[];
+  const solids = (made.cut_by as Body[]).map((by) => partnerBy(byId(members, by.member), own, by.joint as unknown as Statement, kept, frame, know));
+  checkSectionEnd(ends.under('table'), whole(solids), made.table as Body, know);
 }
 
 /** The placement's own line is the partner's axis. */

@@ -1,16 +1,17 @@
 /** Parts: both ends and the holes of a member in one frame, and what follows from them (docs/theory/parts.md). */
 import {type Columns, type Cut, envelope, isOpen} from './bevel.js';
+import {beamSpans, checkCutouts} from './cutouts.js';
 import {checkHole, type Hole, holeOf, numbersOf} from './holes.js';
 import {axisOfMember, byId, cutInFrame, endOf, partnerBy, stated} from './nodes.js';
 import type {Scope} from './report.js';
-import {axisOf, type Body, type Size, sizeOf, solid} from './solids.js';
-import {across, add, cross, directionIn, dot, type Frame, inFrame, lineDistance, mul, norm, onTube, RAD, skew, sub, unit, type V3} from './space.js';
-import {checkEnd, cutBy, type Knowledge} from './tables.js';
+import {axisOf, type Body, isSection, type Size, sizeOf, solid} from './solids.js';
+import {across, cross, directionIn, dot, type Frame, inFrame, lineDistance, mul, norm, onTube, RAD, skew, sub, unit, type V3} from './space.js';
+import {checkEnd, cutBy, type Knowledge, NO_SIZE} from './tables.js';
 import {checkTexts} from './texts.js';
+import {plugs, under} from './volumes.js';
 
 type Numbers = {[name: string]: number};
 const v3 = (v: unknown) => v as V3;
-const CUTOUTS = 'cut-outs are not covered';
 const list = (v: unknown) => (v ?? []) as Body[];
 const num = (v: unknown, otherwise = 0): number => (typeof v === 'number' ? v : otherwise);
 type Side = 'start' | 'finish';
@@ -75,7 +76,7 @@ export function mirrored(end: Body): Body {
 }
 
 /** One end's partners in its own frame; without any it is square. */
-function cutOfEnd(request: Body, made: Body, side: Side, frame: Frame, know: Knowledge): Cut {
+export function cutOfEnd(request: Body, made: Body, side: Side, frame: Frame, know: Knowledge): Cut {
   if (request.members) {
     const members = list(request.members);
     const target = byId(members, request.member);
@@ -88,7 +89,7 @@ function cutOfEnd(request: Body, made: Body, side: Side, frame: Frame, know: Kno
     return {...cut, metal: bare.map((body, i) => (cut.partners[i]?.rate === undefined ? cut.partners[i] : body)), setIn: new Set(into)};
   }
   const target = request.target as Body;
-  const {outer_diameter_mm, wall_mm} = sizeOf(target, know.sizes);
+  const {outer_diameter_mm, wall_mm} = isSection(target) ? NO_SIZE : sizeOf(target, know.sizes);
   const end = (request.ends as Body)[side] as Body;
   const options = {...request, ...end, kerf_mm: end.kerf_mm ?? request.kerf_mm ?? 0} as Body;
   const own = side === 'start' ? frame : atFinish(turned(frame), target.length_mm as number);
@@ -315,23 +316,31 @@ function checkFigures(
     scope.same('lengths', lengths[name], own, 3 * fine, 'mm', name);
     scope.covers(`lengths/${name}`);
   }
-  if (list(request.cutouts).length > 0) {
-    for (const name of ['cutouts', 'lengths/volume_mm3', 'lengths/mass_kg']) scope.not(name, CUTOUTS);
-  } else {
-    const spans = holes.map((hole): [number, number] => {
-      const z = ['z_mm', 'z_inner_mm'].flatMap((name) => (hole.points as {[name: string]: number[]})[name]);
-      return [Math.min(...z), Math.max(...z)];
-    });
-    const alone = spans.every(
-      ([low, high], i) => low > Math.max(...both(s)) && high < Math.min(...both(e)) && spans.every(([from, to], k) => k === i || to < low || from > high),
-    );
-    const volume = under(cuts.finish, e) - under(cuts.start, s) - plugs(holes, R, r);
-    const own = lengths.volume_mm3;
-    if (alone) scope.same('volume', own / volume, 1, holes.length ? 5e-4 : 1e-9, '');
-    else scope.not('lengths/volume_mm3', 'holes that may meet each other or an end are not taken together');
-    scope.same('mass', lengths.mass_kg, own * 1e-9 * num(request.density_kg_m3, 7850), 1e-12 * (1 + lengths.mass_kg), 'kg');
-    scope.covers('lengths/mass_kg', ...(alone ? ['lengths/volume_mm3'] : []));
-  }
+  const spans = holes.map((hole): [number, number] => {
+    const z = ['z_mm', 'z_inner_mm'].flatMap((name) => (hole.points as {[name: string]: number[]})[name]);
+    return [Math.min(...z), Math.max(...z)];
+  });
+  const alone = spans.every(
+    ([low, high], i) => low > Math.max(...both(s)) && high < Math.min(...both(e)) && spans.every(([from, to], k) => k === i || to < low || from > high),
+  );
+  const round = {a: R, b: R, r: R};
+  const {axis} = bodyOf(request);
+  const taken = checkCutouts(scope, request, result, {
+    outer: round,
+    bore: {a: r, b: r, r},
+    wall: R - r,
+    work: dot(sub(axis[0], v3((result.frame as Body).origin_mm)), axis[1]),
+    length,
+    longest: Math.max(...both(e)),
+  });
+  const own = lengths.volume_mm3;
+  if (alone && taken !== undefined) {
+    const volume = under(cuts.finish, e) - under(cuts.start, s) - plugs(holes, R, r) - taken;
+    scope.same('volume', own / volume, 1, holes.length ? 5e-4 : taken ? 1e-7 : 1e-9, '');
+    scope.covers('lengths/volume_mm3');
+  } else scope.not('lengths/volume_mm3', 'holes that may meet each other or an end, and cut-outs that are not covered, are not taken together');
+  scope.same('mass', lengths.mass_kg, own * 1e-9 * num(request.density_kg_m3, 7850), 1e-12 * (1 + lengths.mass_kg), 'kg');
+  scope.covers('lengths/mass_kg');
   for (const dimension of list(result.check_dimensions)) {
     const value = dimensionOf(String(dimension.name), s, e, ends, R, r, tip, throat, dimension.value_mm as number);
     if (value === undefined) scope.not('check_dimensions', `${dimension.name} is unknown`);
@@ -339,59 +348,6 @@ function checkFigures(
   }
   scope.covers('check_dimensions/*/value_mm');
   checkClocking(scope, request, result);
-}
-
-/** Metal of the target below a cut, from z = 0: the edges straight between rows, and across the wall. */
-function under(cut: Cut, points: {[name: string]: number[]}): number {
-  const phi = points.phi_deg;
-  const radii = points.z_face_mm && cut.face > 0 ? [cut.inner, cut.inner + cut.face, cut.outer] : [cut.inner, cut.outer];
-  const columns = radii.map((_, k) => (k === 0 ? 'z_inner_mm' : k === radii.length - 1 ? 'z_outer_mm' : 'z_face_mm'));
-  const around = columns.map((name) => {
-    const z = points[name];
-    return phi.reduce((sum, deg, i) => {
-      const last = i + 1 === phi.length;
-      const next = last ? phi[0] + 360 : phi[i + 1];
-      return sum + ((z[i] + z[last ? 0 : i + 1]) / 2) * (next - deg) * RAD;
-    }, 0);
-  });
-  let volume = 0;
-  for (let k = 0; k + 1 < radii.length; k += 1) {
-    const [a, t, from, to] = [radii[k], radii[k + 1] - radii[k], around[k], around[k + 1]];
-    volume += from * (a * t + (t * t) / 2) + (to - from) * ((a * t) / 2 + (t * t) / 3);
-  }
-  return volume;
-}
-
-/** Metal that holes take: of each the area between its wall's lines, on cylinders across the wall. */
-function plugs(holes: Body[], R: number, r: number): number {
-  const count = 24;
-  let volume = 0;
-  for (const hole of holes) {
-    const points = hole.points as unknown as {[name: string]: number[]};
-    const column = (name: string) => points[name];
-    const lines = column('phi_deg').map((deg, i): [V3, V3] => [
-      onTube(r, column('phi_inner_deg')[i] * RAD, column('z_inner_mm')[i]),
-      onTube(R, deg * RAD, column('z_mm')[i]),
-    ]);
-    for (let k = 0; k < count; k += 1) {
-      const rho = r + ((k + 0.5) / count) * (R - r);
-      const ring = lines.map(([a, b]): [number, number] => {
-        const d = sub(b, a);
-        const [p, q, c] = [d[0] ** 2 + d[1] ** 2, a[0] * d[0] + a[1] * d[1], a[0] ** 2 + a[1] ** 2 - rho * rho];
-        const u = (-q + Math.sqrt(Math.max(0, q * q - p * c))) / p;
-        const at_ = add(a, mul(d, u));
-        return [Math.atan2(at_[1], at_[0]), at_[2]];
-      });
-      const centre = ring[0][0];
-      const area = ring.reduce((sum, [phi, z], i) => {
-        const [next, up] = ring[(i + 1) % ring.length];
-        const [s, t] = [phi, next].map((angle) => Math.atan2(Math.sin(angle - centre), Math.cos(angle - centre))) as [number, number];
-        return sum + (s * up - t * z) / 2;
-      }, 0);
-      volume += Math.abs(area) * rho * ((R - r) / count);
-    }
-  }
-  return volume;
 }
 
 function dimensionOf(
@@ -428,7 +384,7 @@ function dimensionOf(
 }
 
 /** The side towards which a partner of an end leans, in the coordinates of its request: where its axis, or the plane, rises into the member. */
-function checkClocking(scope: Scope, request: Body, result: Body): void {
+export function checkClocking(scope: Scope, request: Body, result: Body): void {
   if (request.members) return;
   const lean = (side: Side): number | undefined => {
     const body = list(((request.ends as Body)[side] as Body).cutters)[0];
@@ -481,9 +437,15 @@ function checkMarks(scope: Scope, request: Body, result: Body, ends: {[side in S
     if (off.length) scope.most('marks', Math.min(...off), 3e-10 * (1 + R / 10), 'mm', mark.text);
   }
   scope.covers(...['phi_deg', 'girth_mm', 'z_from_mm', 'z_to_mm'].map((name) => `marks/*/${name}`));
+  const spans = beamSpans(result);
   for (const step of list(result.sequence) as unknown as (Numbers & {what: string})[]) {
     const torch = (points: {[name: string]: number[]}, names: string[]) => names.flatMap((name) => points[name]);
-    if (step.what === 'cutout') continue;
+    if (step.what === 'cutout') {
+      const [low, high] = spans[step.index] ?? [NaN, NaN];
+      scope.same('sequence', step.z_from_mm, low, 3e-10, 'mm', step.what);
+      scope.same('sequence', step.z_to_mm, high, 3e-10, 'mm', step.what);
+      continue;
+    }
     const mark = marks[step.index];
     const hole = list(result.holes)[step.index];
     const z =
@@ -495,6 +457,5 @@ function checkMarks(scope: Scope, request: Body, result: Body, ends: {[side in S
     scope.same('sequence', step.z_from_mm, Math.min(...z), 3e-10, 'mm', step.what);
     scope.same('sequence', step.z_to_mm, Math.max(...z), 3e-10, 'mm', step.what);
   }
-  if (list(request.cutouts).length > 0) scope.not('sequence', CUTOUTS);
-  else scope.covers('sequence/*/z_from_mm', 'sequence/*/z_to_mm', 'sequence/*/index');
+  scope.covers('sequence/*/z_from_mm', 'sequence/*/z_to_mm', 'sequence/*/index');
 }

@@ -38,6 +38,7 @@ export interface Section {
   width_mm: number;
   wall_mm: number;
   corner_radius_mm: number;
+  inner_corner_radius_mm?: number; // without it, corners are concentric
 }
 export const isSection = (body: Body): boolean => (body.kind ?? 'round') !== 'round' || /^(?!NPS |CHS )./.test(String(body.size ?? ''));
 
@@ -56,11 +57,19 @@ export function sectionOf(body: Body, sections: ReadonlyMap<string, Section>): S
     const named = /^[RS]HS ([0-9.]+)x([0-9.]+)x([0-9.]+) EN (10210|10219)$/.exec(body.size);
     if (!named) throw new Error(`unknown size ${body.size}: give the answer of GET /v1/tubes`);
     const [height_mm, width_mm, wall_mm] = named.slice(1, 4).map(Number) as [number, number, number];
-    return {height_mm, width_mm, wall_mm, corner_radius_mm: corners[`en_${named[4]}`](wall_mm)};
+    return nominal(`en_${named[4]}`, {height_mm, width_mm, wall_mm});
   }
   const [height_mm, width_mm, wall_mm] = [num(body.height_mm), num(body.width_mm), num(body.wall_mm)];
+  if (typeof body.corners === 'string') return nominal(body.corners, {height_mm, width_mm, wall_mm});
   const round = body.kind === 'flat_oval_tube' ? Math.min(height_mm, width_mm) / 2 : num(body.corner_radius_mm);
-  return {height_mm, width_mm, wall_mm, corner_radius_mm: typeof body.corners === 'string' ? corners[body.corners](wall_mm) : round};
+  const bore = typeof body.inner_corner_radius_mm === 'number' ? {inner_corner_radius_mm: body.inner_corner_radius_mm} : {};
+  return {height_mm, width_mm, wall_mm, corner_radius_mm: round, ...bore};
+}
+
+/** Hot-finished corners are not concentric. */
+function nominal(standard: string, sides: Pick<Section, 'height_mm' | 'width_mm' | 'wall_mm'>): Section {
+  const bore = standard === 'en_10210' ? {inner_corner_radius_mm: sides.wall_mm} : {};
+  return {...sides, corner_radius_mm: corners[standard](sides.wall_mm), ...bore};
 }
 
 export const girthOf = (s: Section): number => 2 * (s.height_mm + s.width_mm) - (8 - 2 * Math.PI) * s.corner_radius_mm;

@@ -8,6 +8,7 @@ export interface Frame {
   origin: V3;
 }
 
+export const UP: V3 = [0, 0, 1];
 export const RAD = Math.PI / 180;
 /** An angle in degrees, from -180 on and below 180. */
 export const wrapped = (deg: number): number => ((((deg + 180) % 360) + 360) % 360) - 180;

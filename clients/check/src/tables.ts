@@ -14,7 +14,7 @@ import {
   type TorchLine,
 } from './wall.js';
 import type {Scope} from './report.js';
-import {type Body, type Section, type Size, type Solid, sizeOf, solid} from './solids.js';
+import {type Body, isSection, type Section, type Size, type Solid, sizeOf, solid} from './solids.js';
 
 export interface Knowledge {
   sizes: ReadonlyMap<string, Size>;
@@ -22,10 +22,13 @@ export interface Knowledge {
   machines: ReadonlyMap<string, Body>;
 }
 
+/** A section's outlines stand beside its cut. */
+export const NO_SIZE: Size = {outer_diameter_mm: 0, wall_mm: 0};
 const num = (v: unknown, otherwise: number) => (typeof v === 'number' ? v : otherwise);
 
 export function cutOf(request: Body, know: Knowledge): Cut {
-  const {outer_diameter_mm, wall_mm} = sizeOf(request.target as Body, know.sizes);
+  const target = request.target as Body;
+  const {outer_diameter_mm, wall_mm} = isSection(target) ? NO_SIZE : sizeOf(target, know.sizes);
   const grown = num(request.coating_mm, 0) + num(request.root_gap_mm, 0);
   const partners: Solid[] = (request.cutters as Body[]).map((body) => solid(body, grown, know.sizes));
   return cutBy(request, outer_diameter_mm / 2, wall_mm, partners);

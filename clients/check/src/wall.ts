@@ -205,7 +205,7 @@ export function checkEvents(scope: Scope, cut: Cut, events: Event[], surface: 'i
       const difference = (at: number) => (height(event.from, at) ?? -Infinity) - (height(event.to, at) ?? -Infinity);
       const own = root(difference, phi - 1e-6, phi + 1e-6);
       scope.same('junction_phi', event.phi_deg, own / RAD, 3e-10, 'deg', where);
-      scope.same('junction_z', event.z_from_mm, event.z_to_mm, 3e-10 + 1e-12 * Math.abs(event.z_to_mm), 'mm', where);
+      scope.same('junction_z', event.z_from_mm, event.z_to_mm, 3e-10 + 3e-13 * Math.abs(event.z_to_mm), 'mm', where);
       scope.same('junction_z', event.z_from_mm, height(event.from, phi) ?? NaN, 1e-9 + 1e-11 * Math.abs(event.z_to_mm), 'mm', where);
     } else {
       for (const [z, by] of [

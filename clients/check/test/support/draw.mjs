@@ -1,5 +1,6 @@
 // Requests of everyday sizes, drawn from a seed.
 import {more} from './draw_more.mjs';
+import {cutouts, rectangular, widthOf} from './draw_sections.mjs';
 
 export function random(seed) {
   let state = seed >>> 0;
@@ -46,12 +47,12 @@ function partner(r, width) {
 
 const drawers = {
   intersections: (r) => {
-    const tube = target(r);
-    return {target: tube, cutters: Array.from({length: r.whole(1, 3)}, () => partner(r, tube.outer_diameter_mm)), sampling: sampling(r)};
+    const tube = r.chance(0.4) ? rectangular(r) : target(r);
+    return {target: tube, cutters: Array.from({length: r.whole(1, 3)}, () => partner(r, widthOf(tube))), sampling: sampling(r)};
   },
   'bevel-tables': (r) => {
-    const tube = target(r);
-    const cutters = Array.from({length: r.whole(1, 3)}, () => partner(r, tube.outer_diameter_mm));
+    const tube = r.chance(0.4) ? rectangular(r) : target(r);
+    const cutters = Array.from({length: r.whole(1, 3)}, () => partner(r, widthOf(tube)));
     if (r.chance(0.15)) return {preset: 'tube_laser', target: tube, cutters, sampling: sampling(r), kerf_mm: r.one([0, 0.2])};
     return {target: tube, cutters, sampling: sampling(r), ...options(r)};
   },
@@ -79,7 +80,7 @@ const drawers = {
     ],
     connect: {within_mm: 50}, include: ['profiles', 'tables'], sampling: {tolerance_mm: 0.05}, tables: options(r),
   }),
-  ...more(target, options),
+  ...more(target, options, {cutouts, rectangular, widthOf}),
 };
 
 export const endpoints = Object.keys(drawers);

@@ -20,10 +20,11 @@ const joint = (r) => {
   };
 };
 
-export const more = (target, options) => ({
+export const more = (target, options, {cutouts, rectangular, widthOf}) => ({
   parts: (r) => {
-    const tube = target(r);
-    const width = tube.outer_diameter_mm;
+    const section = r.chance(0.5);
+    const tube = section ? rectangular(r) : target(r);
+    const width = widthOf(tube);
     const length = r.number(800, 3000, 0);
     const partner = () => ({kind: 'tube', outer_diameter_mm: r.number(width * 1.05, width * 3, 1), inclination_deg: r.number(45, 135, 1), clocking_deg: r.number(0, 360, 0),
       offset_mm: r.number(-width / 8, width / 8, 1), height_mm: 0});
@@ -31,12 +32,12 @@ export const more = (target, options) => ({
       const {kerf_mm, torch, root_surface, ...rest} = options(r);
       return {cutters: Array.from({length: r.whole(1, 2)}, partner), root_surface, ...rest};
     };
-    const holes = Array.from({length: r.whole(0, 2)}, (_, i) => ({
+    const holes = section ? [] : Array.from({length: r.whole(0, 2)}, (_, i) => ({
       branch: {id: `branch ${i}`, outer_diameter_mm: r.number(15, width * 0.6, 1), wall_mm: 2, inclination_deg: r.number(60, 120, 0), clocking_deg: r.number(0, 360, 0),
         offset_mm: 0, height_mm: (length * (i + 1)) / 3},
       joint: {kind: r.one(['set_on', 'set_in']), gap_mm: 1}, groove: {rule: r.one(['half_dihedral', 'none'])},
     }));
-    return {target: {...tube, length_mm: length}, ends: {start: end(), finish: end()}, ...(holes.length ? {holes} : {}),
+    return {target: {...tube, length_mm: length}, ends: {start: end(), finish: end()}, ...(holes.length ? {holes} : r.chance(0.6) ? {cutouts: cutouts(r, tube, length)} : {}),
       sampling: {tolerance_mm: r.number(0.05, 0.2)}, kerf_mm: r.one([0, 1.5])};
   },
   'pulse-schedules': cut,

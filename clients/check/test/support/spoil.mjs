@@ -9,14 +9,20 @@ const another = 0.1; // of indices and counts: another one
 const accuracies = [
   // intersections-and-bevels.md, 5.6, 5.7 and 7; penetration_stated, gouge_stated, left_stated, hole_gap_stated, area_excess
   [/torch_line\/(gouge|left)_mm$/, (v) => Math.max(2e-3, 0.008 * v)],
-  [/(gouge|left)_phi_deg$/, 'torch_line: gouge_phi_deg, left_phi_deg'],
+  [/(gouge|left)_(phi_deg|girth_mm)$/, 'torch_line: gouge_phi_deg, left_phi_deg, gouge_girth_mm'],
   [/penetration\/depth_mm$/, 3e-4],
-  [/penetration\/(phi_deg|radius_mm|z_mm|cutter)$/, 'penetration: phi_deg, radius_mm, z_mm, cutter'],
+  [/penetration\/(phi_deg|radius_mm|girth_mm|below_outside_mm|z_mm|cutter)$/, 'penetration: phi_deg, radius_mm, girth_mm, below_outside_mm, z_mm, cutter'],
+  [/(mutations\/\*|tube_laser\/.*)\/girth_mm$/, 1e-9],
+  // cutouts.md: `bored_points`, `developed_points`, `prism_points`, `areas`, `volumes`, `webs`
+  [/^\/cutouts\/\*\/points\/(torch_|[ab]_deg)/, 'cutouts: points/torch_*, a_deg, b_deg'],
+  [/^\/cutout_report\/net_section\//, 'cutout_report: net_section'],
+  [/^\/cutout_report\/.*\/(from|to)\/|^\/cutout_report\/.*radius_mm$/, 'cutout_report: from, to, radius_mm'],
+  [/^\/section\/|^\/cutouts\/.*\/area_/, (v) => 1e-9 * (1 + v)],
   [/events\/\*\/phi_deg$/, (1e-12 * 180) / Math.PI],
   [/events\/\*\/z_/, (_, {kind} = {}) => (kind === 'junction' ? 1e-10 : 1e-5)],
   [/fit_up\/(least_between_nodes|greatest_root_between_nodes)_mm$/, 1e-3],
   [/smoothed_area\//, share(1e-6)],
-  [/(^|\/)(cutter|from|to|index)(\/\*)?$|turns$/, another],
+  [/(^|\/)(cutter|from|to|index|face)(\/\*)?$|turns$/, another],
   [/overlaps\//, 'overlaps'],
   [/missing_mm$/, 'missing_mm'],
   [/events\/\*\/period$/, 'events: period'],
