@@ -30,6 +30,7 @@ HOLDS = {
     "core/torch": ("the torch round each cut:", "start, leads, pierce"),
     "core/cutoff": ("rotary cut-off:", "the feed curve"),
     "core/cutout": ("openings of their own:", "shapes, patterns, webs"),
+    "core/plate": ("plates of a frame:", "outline, holes for tubes"),
     "core/section": ("tubes that are not round:", "outline, wall, standards"),
     "core/groove": ("equal-area groove", "and its mill path"),
 }

@@ -133,16 +133,38 @@ Result<joint::Link> link(const FrameSpec& spec, const joint::NodeSpec& node, std
   return joint::Link{.member = branch, .end = end, .to = {chord}};
 }
 
-/// Reads the stated joints, of members and of others.
+/// Adds the stated joint of a member with a plate.
+Result<void> add_plate(const FrameSpec& spec, std::size_t index, Joined& out,
+                       std::set<std::pair<std::size_t, std::size_t>>& known) {
+  const auto& said = spec.joints[index];
+  const bool through = said.how.kind == How::Kind::through;
+  TRY(const auto at, detail::at_plate(spec, index));
+  // A member may pass a plate once, or have one end at it.
+  if (!known.emplace(said.member, said.with).second)
+    return contradicts(index, {}, "the joint of this member and this plate is stated already");
+  auto& how = out.joints.back().how;
+  how.hole = how.kind != How::Kind::set_on;
+  if (how.kind == How::Kind::set_in) how.depth = at.depth;
+  if (through) return {};
+  out.others[joint::end_index(said.member, at.end)].push_back(
+      {.other = said.with, .joint = index, .plate = true, .face = at.face});
+  return {};
+}
+
+/// Reads the stated joints, of members, of others and of plates.
 Result<Joined> stated(const FrameSpec& spec) {
   Joined out;
   out.node.members = spec.members;
   out.others.resize(2 * spec.members.size());
-  std::set<std::pair<std::size_t, std::size_t>> at_others;
+  std::set<std::pair<std::size_t, std::size_t>> at_others, at_plates;
   std::vector<joint::Link> links;
   for (std::size_t i = 0; i < spec.joints.size(); ++i) {
     const auto& said = spec.joints[i];
-    out.joints.push_back({said.member, said.with, said.other, said.how, i});
+    out.joints.push_back({said.member, said.with, said.other, said.how, i, said.plate});
+    if (said.plate) {
+      TRY(add_plate(spec, i, out, at_plates));
+      continue;
+    }
     if (said.other) {
       TRY(const auto end, detail::end_at(spec, i));
       const auto index = 2 * said.member + (end == End::finish ? 1 : 0);
@@ -232,7 +254,7 @@ Result<void> settle(const FrameSpec& spec, Joined& joined) {
       if (cut.stated) one.how.depth = cut.stated->depth;
     }
   for (auto& one : joined.joints) {
-    if (one.how.kind != How::Kind::through) continue;
+    if (one.how.kind != How::Kind::through || one.plate) continue;
     const auto passing = joint::which_passes(spec.members[one.branch], spec.members[one.chord]);
     if (passing == joint::Passing::second) std::swap(one.branch, one.chord);
   }
@@ -283,7 +305,8 @@ std::vector<joint::Body> bodies(const FrameSpec& spec, const Joined& joined) {
   for (std::size_t i = 0; i < joined.others.size(); ++i) {
     const auto& member = spec.members[i / 2];
     for (const auto& one : joined.others[i])
-      out[one.other].joined.emplace_back(i / 2, i % 2 == 0 ? member.start : member.finish);
+      if (!one.plate)
+        out[one.other].joined.emplace_back(i / 2, i % 2 == 0 ? member.start : member.finish);
   }
   return out;
 }
@@ -318,6 +341,7 @@ std::vector<std::size_t> round_holes(const std::vector<Hole>& holes) {
 Result<End> detail::end_at(const FrameSpec& spec, std::size_t index) {
   const auto& said = spec.joints[index];
   if (said.end) return *said.end;
+  if (said.plate) return at_plate(spec, index).map([](const AtPlate& at) { return at.end; });
   const auto& m = spec.members[said.member];
   const auto& partner = spec.others[said.with].partner;
   const double start = joint::by_kind(partner, Off{m.start});
@@ -340,6 +364,7 @@ Result<Frame> solve(const FrameSpec& spec) {
   }
   TRY(settle(spec, joined));
   Frame out;
+  TRY(out.plates, detail::plates(spec, joined));
   TRY(out.pieces, detail::pieces(spec, joined));
   out.not_cut = not_cut(spec, joined);
   out.warnings = warnings(joined);
@@ -349,6 +374,8 @@ Result<Frame> solve(const FrameSpec& spec) {
   for (auto& warning : joint::warnings_of(joined.node, shared))
     out.warnings.push_back(std::move(warning));
   for (auto& warning : entering) out.warnings.push_back(std::move(warning));
+  TRY(auto of_plates, detail::warnings_of_plates(spec, joined, out.plates, beside));
+  for (auto& warning : of_plates) out.warnings.push_back(std::move(warning));
   out.joints = std::move(joined.joints);
   return out;
 }

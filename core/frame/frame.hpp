@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "core/frame/frame_plate.hpp"
 #include "core/joint/node/node.hpp"
 #include "core/part/part.hpp"
 
@@ -47,12 +48,16 @@ struct Other {
   std::string name = {};
 };
 
+/// With a plate: see frame_plate.hpp.
 struct StatedJoint {
   std::size_t member = 0;
-  std::size_t with = 0;                // another member, or one of the others
+  std::size_t with = 0;                // another member, one of the others, or a plate
   bool other = false;                  // true if `with` is one of the others
   std::optional<joint::End> end = {};  // of the branch; empty: the nearer end
   How how;
+  bool plate = false;  // true if `with` is a plate
+
+  [[nodiscard]] bool of_members() const { return !other && !plate; }
 };
 
 /// Members of one structure with their joints. Priority, diameter and position determine which of
@@ -64,6 +69,7 @@ struct FrameSpec {
   std::vector<StatedJoint> joints;
   std::optional<double> within = {};  // mm, as joint::Within; empty: only stated joints exist
   How found;                          // for joints of members that are not stated
+  std::vector<plate::PlateSpec> plates = {};
 };
 
 /// One joint as both sides are cut for it.
@@ -72,6 +78,9 @@ struct FrameJoint {
   bool other = false;                 // true if the chord is one of the others
   How how;                            // if set-in, with its depth
   std::optional<std::size_t> stated;  // empty: found
+  bool plate = false;                 // true if the chord is a plate
+
+  [[nodiscard]] bool of_members() const { return !other && !plate; }
 };
 
 /// One partner of an end, in the end's own frame.
@@ -126,6 +135,7 @@ struct Frame {
   std::vector<FrameJoint> joints;  // stated joints in their order, then found joints
   std::vector<NotCut> not_cut;
   std::vector<Warning> warnings;  // of ends, and of members that overlap
+  std::vector<FramePlate> plates = {};
 };
 
 /// Finds every joint once. From it derives the branch's end and the chord's hole, or both ends of a
@@ -134,7 +144,8 @@ struct Frame {
 /// Errors    those of joint::solve (members/...; joints/i/... for stated joints, defaults/... for
 ///           found ones) and of joint::overlaps; joint_contradicts (joints/i: two are already
 ///           joined; through, of two alike; butt, out of line), zero_length (others/i/...),
-///           ambiguous_connection (joints/i: which end?), parallel_axes (others/i), cancelled.
+///           ambiguous_connection (joints/i: which end?), parallel_axes (others/i), cancelled;
+///           of plates see frame_plate.hpp.
 /// Accuracy  of joint::solve.
 /// Cost      twice that of joint::solve, with joint::overlaps; otherwise linear in members.
 [[nodiscard]] Result<Frame> solve(const FrameSpec& spec);

@@ -33,7 +33,8 @@ Result<Mates> mates(const FrameSpec& spec, const MergeSpec& besides) {
   for (const auto& [member, end] : besides.kept) kept.insert(end_index(member, end));
   for (std::size_t i = 0; i < spec.joints.size(); ++i) {
     const auto& one = spec.joints[i];
-    if (one.other) {
+    if (one.plate && one.how.kind == How::Kind::through) continue;
+    if (!one.of_members()) {
       TRY(const auto end, detail::end_at(spec, i));
       kept.insert(end_index(one.member, end));
       continue;
@@ -146,9 +147,9 @@ joint::End turned(joint::End end, bool turned) {
 }
 
 bool same(const StatedJoint& a, const StatedJoint& b) {
-  return a.other == b.other && a.end == b.end && a.how == b.how &&
-         (a.other ? a.member == b.member && a.with == b.with
-                  : std::minmax(a.member, a.with) == std::minmax(b.member, b.with));
+  return a.other == b.other && a.plate == b.plate && a.end == b.end && a.how == b.how &&
+         (!a.of_members() ? a.member == b.member && a.with == b.with
+                          : std::minmax(a.member, a.with) == std::minmax(b.member, b.with));
 }
 
 /// Adds the joints of the merged members: joints between pieces of one member are dropped, equal
@@ -159,11 +160,11 @@ Result<void> add_joints(const FrameSpec& spec, const MergeSpec& besides, Merged&
     auto one = spec.joints[i];
     const auto place = out.of[one.member];
     one.member = place.member;
-    if (one.other) {
+    if (!one.of_members() && !(one.plate && one.how.kind == How::Kind::through)) {
       TRY(const auto end, detail::end_at(spec, i));
       one.end = turned(end, place.turned);
     }
-    if (!one.other) {
+    if (one.of_members()) {
       const auto with = out.of[one.with];
       one.with = with.member;
       if (one.member == one.with) continue;
@@ -193,6 +194,7 @@ Result<Merged> merge_in_line(const FrameSpec& spec, const MergeSpec& besides) {
   Merged out;
   out.spec.others = spec.others;
   out.spec.within = spec.within;
+  out.spec.plates = spec.plates;
   out.spec.found = spec.found;
   out.of.resize(spec.members.size());
   for (const auto& run : all) add_member(spec, run, out);

@@ -109,11 +109,11 @@ std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std
     out.push_back(std::move(one));
   }
   for (const auto& one : joined.others[index])
-    out.push_back({.partner = spec.others[one.other].partner,
+    out.push_back({.partner = partner_of(spec, one),
                    .stated = joint::Joint{.kind = joint::JointKind::set_on,
-                                          .gap = joined.joints[one.joint].how.gap},
+                                          .gap = gap_of(joined.joints[one.joint])},
                    .joint = one.joint,
-                   .at = "others/" + std::to_string(one.other)});
+                   .at = path_of(one)});
   return out;
 }
 
@@ -161,7 +161,7 @@ std::vector<std::vector<Branch>> branches(const Joined& joined) {
             {end.member, joined.joint_of(end.member, cut.member), end.end, false});
   }
   for (std::size_t i = 0; i < joined.joints.size(); ++i)
-    if (const auto& one = joined.joints[i]; one.how.kind == How::Kind::through)
+    if (const auto& one = joined.joints[i]; one.how.kind == How::Kind::through && !one.plate)
       out[one.chord].push_back({one.branch, i, End::start, true});
   return out;
 }
@@ -330,10 +330,9 @@ joint::Beside seats_of_others(const FrameSpec& spec, const Joined& joined) {
   joint::Beside out(joined.others.size());
   for (std::size_t i = 0; i < out.size(); ++i)
     for (const auto& one : joined.others[i]) {
-      const auto partner =
-          joint::by_kind(spec.others[one.other].partner, In{joined.nodes.ends[i].frame});
+      const auto partner = joint::by_kind(partner_of(spec, one), In{joined.nodes.ends[i].frame});
       if (!partner) continue;  // `pieces` rejects it
-      const std::array grown{joint::grown(*partner, joined.joints[one.joint].how.gap)};
+      const std::array grown{joint::grown(*partner, gap_of(joined.joints[one.joint]))};
       const auto cutters = joint::resolve(grown);
       if (cutters) out[i].push_back(cutters->front());
     }

@@ -122,7 +122,7 @@ class Proof {
     const auto& cut = cut_of(*asked_[member], end);
     for (std::size_t k = 0; k < cutters.size(); ++k) {
       const auto& one = frame_.joints[cutters[k].joint];
-      if (one.other) continue;
+      if (!one.of_members()) continue;
       auto& mate = mates_[cutters[k].joint];
       const auto other = one.branch == member ? one.chord : one.branch;
       mate.reach = m.reach() + spec_.members[other].reach();
