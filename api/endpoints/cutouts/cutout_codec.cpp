@@ -56,50 +56,6 @@ bool decode_as_cut(Reader& in) {
   return in.choice("corners", kCorners, false);
 }
 
-cutout::Contour decode_contour_shape(Reader& in) {
-  static constexpr std::array kKinds{Option<bool>{"line", false}, Option<bool>{"arc", true}};
-  static constexpr std::array kSenses{Option<bool>{"ccw", false}, Option<bool>{"cw", true}};
-  cutout::Contour out{.start = decode_place(in, "start_mm"), .pieces = {}};
-  out.pieces = in.array("pieces", {.min = 1, .max = kMostPieces}, [](Reader& p) {
-    cutout::DrawnSegment piece;
-    const auto arc = p.tag("kind", kKinds);
-    piece.to = decode_place(p, "to_mm");
-    if (arc.value_or(false)) {
-      piece.centre = decode_place(p, "centre_mm");
-      piece.clockwise = p.choice("sense", kSenses);
-    }
-    return piece;
-  });
-  out.mirrored = in.flag("mirrored", false);
-  return out;
-}
-
-/// A drawing's one contour; what is wrong with it is an issue of its text.
-cutout::Contour decode_dxf_shape(Reader& in) {
-  const bool mirrored = in.flag("mirrored", false);
-  const auto* field = in.find("dxf");
-  const auto* text = field == nullptr ? nullptr : field->as<std::string>();
-  in.note("dxf");
-  if (text == nullptr || text->empty() || text->size() > kLongestDxf) {
-    in.issue({.code = field == nullptr  ? ErrorCode::missing_field
-                      : text == nullptr ? ErrorCode::wrong_type
-                                        : ErrorCode::bad_text,
-              .pointer = "dxf",
-              .limit = Json{static_cast<double>(kLongestDxf)},
-              .hint = "the text of a DXF file, of 1 to that many bytes, is required"},
-             field);
-    return {};
-  }
-  in.put("dxf", Json{*text});
-  auto read = read_dxf_contour(*text);
-  if (!read) {
-    in.issue(field_issue(read.error().issues.front(), "dxf"));
-    return {};
-  }
-  read->mirrored = mirrored;
-  return *std::move(read);
-}
-
 /// The least corner that the kerf allows, or 0 with corners as_cut or if a side is refused.
 double default_radius(const Common& common, const cutout::Spec& spec, const cutout::Rectangle& r,
                       cutout::Lay lay) {
@@ -348,6 +304,49 @@ cutout::Spec decode_cutout(Reader& in, const Common& common, std::set<std::strin
 }
 
 }  // namespace
+
+cutout::Contour decode_contour_shape(Reader& in) {
+  static constexpr std::array kKinds{Option<bool>{"line", false}, Option<bool>{"arc", true}};
+  static constexpr std::array kSenses{Option<bool>{"ccw", false}, Option<bool>{"cw", true}};
+  cutout::Contour out{.start = decode_place(in, "start_mm"), .pieces = {}};
+  out.pieces = in.array("pieces", {.min = 1, .max = kMostPieces}, [](Reader& p) {
+    cutout::DrawnSegment piece;
+    const auto arc = p.tag("kind", kKinds);
+    piece.to = decode_place(p, "to_mm");
+    if (arc.value_or(false)) {
+      piece.centre = decode_place(p, "centre_mm");
+      piece.clockwise = p.choice("sense", kSenses);
+    }
+    return piece;
+  });
+  out.mirrored = in.flag("mirrored", false);
+  return out;
+}
+
+cutout::Contour decode_dxf_shape(Reader& in) {
+  const bool mirrored = in.flag("mirrored", false);
+  const auto* field = in.find("dxf");
+  const auto* text = field == nullptr ? nullptr : field->as<std::string>();
+  in.note("dxf");
+  if (text == nullptr || text->empty() || text->size() > kLongestDxf) {
+    in.issue({.code = field == nullptr  ? ErrorCode::missing_field
+                      : text == nullptr ? ErrorCode::wrong_type
+                                        : ErrorCode::bad_text,
+              .pointer = "dxf",
+              .limit = Json{static_cast<double>(kLongestDxf)},
+              .hint = "the text of a DXF file, of 1 to that many bytes, is required"},
+             field);
+    return {};
+  }
+  in.put("dxf", Json{*text});
+  auto read = read_dxf_contour(*text);
+  if (!read) {
+    in.issue(field_issue(read.error().issues.front(), "dxf"));
+    return {};
+  }
+  read->mirrored = mirrored;
+  return *std::move(read);
+}
 
 part::CutoutSpecs decode_cutouts(Reader& in, Preset preset, const bevel::TableSpec& once,
                                  const section::Section* section, bool sure) {

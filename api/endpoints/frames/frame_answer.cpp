@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/endpoints/frames/plate_answer.hpp"
 #include "api/endpoints/place_text.hpp"
 #include "api/wire/answer_text.hpp"
 #include "api/wire/frame_names.hpp"
@@ -117,6 +118,17 @@ void add_square_holes(const FrameJob& frame, const MadeParts& made, std::size_t 
     seam.greatest_root = std::max(seam.greatest_root.value_or(one.greatest_gap), one.greatest_gap);
   }
 }
+/// Adds the holes in plates: welded all round, with the gap of their walls.
+void add_plate_holes(const FrameJob& frame, std::vector<Seam>& seams) {
+  for (const auto& one : frame.frame.plates)
+    for (const auto& hole : one.plate.holes) {
+      if (!hole.passing) continue;
+      auto& seam = seams[one.joints[*hole.passing]];
+      for (const auto& s : hole.chain) seam.weld += s.length();
+      seam.least_gap = one.passing[*hole.passing].passage.gap;
+      seam.greatest_root = hole.greatest_gap;
+    }
+}
 std::vector<Seam> seams_of(const FrameJob& frame, const MadeParts& made) {
   std::vector<Seam> seams(frame.frame.joints.size());
   for (std::size_t i = 0; i < frame.spec.members.size(); ++i) {
@@ -124,13 +136,15 @@ std::vector<Seam> seams_of(const FrameJob& frame, const MadeParts& made) {
     add_holes(frame, made, i, seams);
     add_square_holes(frame, made, i, seams);
   }
+  add_plate_holes(frame, seams);
   return seams;
 }
 
 void write_joint(const FrameJob& frame, const frame::FrameJoint& joint, const Seam& seam,
                  Writer& o) {
-  const auto& chord =
-      joint.other ? frame.spec.others[joint.chord].name : frame.spec.members[joint.chord].name;
+  const auto& chord = joint.other   ? frame.spec.others[joint.chord].name
+                      : joint.plate ? frame.spec.plates[joint.chord].name
+                                    : frame.spec.members[joint.chord].name;
   o.field("branch", frame.spec.members[joint.branch].name);
   o.field("chord", chord);
   o.field("kind", name_of(joint.how.kind));
@@ -238,6 +252,11 @@ void write_totals(const FrameJob& frame, const MadeParts& made, Writer& w) {
     o.field("parts", made.size());
     o.field("blank_mm", blank);
     o.field("mass_kg", mass);
+    if (frame.plate_parts.empty()) return;
+    double of_plates = 0.0;
+    for (std::size_t i = 0; i < frame.spec.plates.size(); ++i) of_plates += mass_of_plate(frame, i);
+    o.field("plates", frame.spec.plates.size());
+    o.field("plates_mass_kg", of_plates);
   });
 }
 

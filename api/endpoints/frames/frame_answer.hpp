@@ -24,6 +24,13 @@ struct Merges {
   std::vector<std::size_t> joints;               // of each of the frame's: which it is
 };
 
+/// Plates that are alike, made once.
+struct PlatePart {
+  std::vector<std::size_t> plates;  // in the request's order; the first names it
+  Json::Object geometry;            // as it is answered
+  std::string sha256;               // of that
+};
+
 /// A frame with its detected joints, and its parts as requests.
 struct FrameJob : FrameRequest, FrameParts {
   frame::Frame frame = {};
@@ -38,6 +45,7 @@ struct FrameJob : FrameRequest, FrameParts {
     return laid[member].stand(frame.pieces[member].frame);
   }
   std::optional<Merges> merged = {};
+  std::vector<PlatePart> plate_parts = {};
 };
 
 /// A part as /v1/parts answers, or the reason for its absence.

@@ -9,6 +9,7 @@
 
 #include "api/api.hpp"
 #include "api/endpoints/frames/frame_formats.hpp"
+#include "api/endpoints/frames/plate_answer.hpp"
 #include "api/formats/gcode/gcode.hpp"
 #include "api/formats/provenance.hpp"
 #include "api/formats/zip_archive.hpp"
@@ -85,21 +86,23 @@ References::iterator entry(References& all, std::string_view name) {
 }
 
 /// Returns the quantity of a part: one per member, times the number of frames of the job.
-std::uint64_t quantity_of(const FrameJob& frame, std::size_t i, const Caption& caption) {
+std::uint64_t quantity_of(std::size_t members, const Caption& caption) {
   auto all = caption.reference;
   const auto frames = entry(all, "quantity");
-  return frame.parts[i].members.size() * (frames == all.end() ? 1 : std::stoull(frames->second));
+  return members * (frames == all.end() ? 1 : std::stoull(frames->second));
+}
+std::uint64_t quantity_of(const FrameJob& frame, std::size_t i, const Caption& caption) {
+  return quantity_of(frame.parts[i].members.size(), caption);
 }
 
 /// The job's reference, its part with the member's id behind it, its quantity that of the part.
-References reference_of(const FrameJob& frame, std::size_t i, const Caption& caption) {
+References reference_of(const std::string& id, std::uint64_t count, const Caption& caption) {
   auto out = caption.reference;
-  const auto& id = name_of_part(frame, i);
   if (const auto part = entry(out, "part"); part != out.end())
     part->second += " " + id;
   else
     out.emplace(out.begin(), "part", id);
-  const auto pieces = std::to_string(quantity_of(frame, i, caption));
+  const auto pieces = std::to_string(count);
   if (const auto quantity = entry(out, "quantity"); quantity != out.end())
     quantity->second = pieces;
   else
@@ -160,7 +163,8 @@ Folder write_folder(const FrameJob& frame, std::size_t i, const Worked<Parts>& p
   Folder out;
   auto caption = of_frame;
   caption.options = {};
-  caption.reference = reference_of(frame, i, of_frame);
+  caption.reference =
+      reference_of(name_of_part(frame, i), quantity_of(frame, i, of_frame), of_frame);
   caption.members = members_of_part(frame, i);
   auto program = caption;  // the query's other options apply only to those
   program.options = of_frame.options;
@@ -191,6 +195,37 @@ Folder write_folder(const FrameJob& frame, std::size_t i, const Worked<Parts>& p
   return out;
 }
 
+/// A folder of one kind of plate: its numbers, and those of the requested files that plates have.
+Folder write_plate_folder(const FrameJob& frame, const PlatePart& part, const Caption& of_frame,
+                          const Verdict& own, Bundle& bundle) {
+  Folder out;
+  auto caption = of_frame;
+  caption.options = {};
+  caption.verdict = own;
+  caption.reference =
+      reference_of(name_of_plate(frame, part), quantity_of(part.plates.size(), of_frame), of_frame);
+  const auto stem = bundle.own(file_name(caption.reference.front().second, part.sha256));
+  out.files.push_back(bundle.add(stem + "/" + stem + ".plate.json", "plate", kJsonMedia,
+                                 dump(Json{part.geometry})));
+  for (const auto& file : of_frame.options.files) {
+    if (!has_plate_file(file.name)) {
+      out.left_out.push_back(
+          {file.name,
+           {.code = ErrorCode::not_acceptable, .detail = "A plate has only dxf and nc1."}});
+      continue;
+    }
+    try {
+      const auto text = plate_file(frame, part, file.name, caption);
+      out.files.push_back(bundle.add(stem + "/" + stem + std::string(file.ending), file.name,
+                                     format_of(file).media, text));
+    } catch (const Unspellable& met) {
+      out.left_out.push_back({file.name, unspellable_problem(met, format_of(file),
+                                                             caption.reference, *caption.request)});
+    }
+  }
+  return out;
+}
+
 void write_file(Writer& w, const Bundled& file) {
   w.object([&](Writer& o) {
     o.field("name", file.name);
@@ -207,6 +242,16 @@ void write_problem(const Problem& why, Writer& o) {
   write_issues(o, why.issues);
 }
 
+void write_files(const Folder& folder, Writer& o) {
+  o.array("files", folder.files, write_file);
+  o.array("left_out", folder.left_out, [](Writer& each, const LeftOut& one) {
+    each.object([&](Writer& l) {
+      l.field("format", one.file);
+      write_problem(one.why, l);
+    });
+  });
+}
+
 void write_folder_row(const FrameJob& frame, std::size_t i, const MadePart& part,
                       const Folder& folder, const Caption& caption, Writer& o) {
   o.field("part", name_of_part(frame, i));
@@ -218,18 +263,12 @@ void write_folder_row(const FrameJob& frame, std::size_t i, const MadePart& part
   o.column("reasons", answer.verdict.reasons);
   o.field("input_sha256", answer.input_sha256);
   o.field("result_sha256", answer.result_sha256);
-  o.array("files", folder.files, write_file);
-  o.array("left_out", folder.left_out, [](Writer& each, const LeftOut& one) {
-    each.object([&](Writer& l) {
-      l.field("format", one.file);
-      write_problem(one.why, l);
-    });
-  });
+  write_files(folder, o);
 }
 
 std::string manifest(const FrameJob& frame, const MadeParts& made,
-                     const std::vector<Folder>& folders, const std::vector<Bundled>& files,
-                     const Caption& caption) {
+                     const std::vector<Folder>& folders, const std::vector<Folder>& of_plates,
+                     const std::vector<Bundled>& files, const Caption& caption) {
   Writer out(1 << 12);
   out.object([&](Writer& w) {
     write_provenance(caption, w);
@@ -239,6 +278,19 @@ std::string manifest(const FrameJob& frame, const MadeParts& made,
     w.array("parts", parts, [&](Writer& each, std::size_t i) {
       each.object([&](Writer& o) { write_folder_row(frame, i, made[i], folders[i], caption, o); });
     });
+    std::vector<std::size_t> plates(of_plates.size());
+    for (std::size_t i = 0; i < plates.size(); ++i) plates[i] = i;
+    if (!plates.empty())
+      w.array("plates", plates, [&](Writer& each, std::size_t i) {
+        const auto& part = frame.plate_parts[i];
+        each.object([&](Writer& o) {
+          o.field("plate", name_of_plate(frame, part));
+          o.field("quantity", quantity_of(part.plates.size(), caption));
+          o.column("ids", ids_of_plates(frame, part));
+          o.field("sha256", part.sha256);
+          write_files(of_plates[i], o);
+        });
+      });
     write_not_cut(frame, w);
   });
   return out.take() + "\n";
@@ -254,11 +306,14 @@ std::string frame_bundle(const FrameJob& frame, const MadeParts& made, const Cap
   for (std::size_t i = 0; i < made.size(); ++i)
     if (const auto& part = made[i].made)
       folders[i] = write_folder(frame, i, *part, caption, own, bundle);
+  std::vector<Folder> of_plates;
+  for (const auto& part : frame.plate_parts)
+    of_plates.push_back(write_plate_folder(frame, part, caption, own, bundle));
   const std::vector files{
       bundle.add("cut-list.csv", "cut-list", "text/csv", cut_list_csv(frame, made, caption)),
       bundle.add("request.json", "request", kJsonMedia, dump(*caption.request))};
   bundle.add("manifest.json", "manifest", kJsonMedia,
-             manifest(frame, made, folders, files, caption));
+             manifest(frame, made, folders, of_plates, files, caption));
   return bundle.take();
 }
 

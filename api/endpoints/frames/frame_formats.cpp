@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/endpoints/frames/plate_answer.hpp"
 #include "api/formats/csv.hpp"
 #include "api/formats/step/section_solid.hpp"
 #include "api/formats/step/step.hpp"
@@ -58,6 +59,11 @@ std::string cut_list_csv(const FrameJob& frame, const MadeParts& made, const Cap
     cut_list_row(frame, i, made[i], row);
     rows.emplace_back(name_of_part(frame, i), std::move(row.columns));
   }
+  for (const auto& part : frame.plate_parts) {
+    CsvRow row;
+    plate_row(frame, part, row);
+    rows.emplace_back(name_of_plate(frame, part), std::move(row.columns));
+  }
   Csv out(caption);
   for (const auto& [name, value] : caption.reference)
     out.remark(name + ": " + value + (name == "quantity" ? " frames (count is of one frame)" : ""));
@@ -65,6 +71,10 @@ std::string cut_list_csv(const FrameJob& frame, const MadeParts& made, const Cap
 }
 
 std::string frame_step(const FrameJob& frame, const MadeParts& made, const Caption& caption) {
+  if (!frame.plate_parts.empty())
+    throw UnfitOption{"format", "no solids of plates are written yet: plate " +
+                                    name_of_plate(frame, frame.plate_parts.front()) +
+                                    "; use format=zip for the files of parts and plates"};
   double thinnest = limit::wall_max_mm;
   for (const auto& m : frame.spec.members) thinnest = std::min(thinnest, m.wall);
   auto of_parts = caption;  // they are called by their own names

@@ -8,7 +8,6 @@
 
 #include "api/endpoints/frames/cutter_fields.hpp"
 #include "api/endpoints/frames/frame_shape.hpp"
-#include "api/wire/common_fields.hpp"
 #include "api/wire/frame_names.hpp"
 #include "api/wire/sha256.hpp"
 #include "api/wire/writer.hpp"
@@ -115,6 +114,17 @@ class PartWriter {
     return first == nullptr ? Json{} : *first;
   }
 
+  /// Returns the groove of an end that is set in a plate, which is flush at its depth; else null. A
+  /// tube laser cuts it square as all ends.
+  [[nodiscard]] Json flush_in_plate(const std::vector<frame::Cutter>& cutters) const {
+    const bool in_plate = std::ranges::any_of(cutters, [&](const frame::Cutter& one) {
+      const auto& joint = frame_.joints[one.joint];
+      return joint.plate && joint.how.kind == frame::How::Kind::set_in;
+    });
+    if (!in_plate || request_.preset == Preset::tube_laser) return {};
+    return Json{Json::Object{{"rule", Json{"none"}}}};
+  }
+
   /// Returns the cut of an end: its own values, else those of its joints, else the defaults.
   [[nodiscard]] Result<Json::Object> cut(std::size_t member, joint::End end) const {
     auto out = request_.end;
@@ -127,6 +137,7 @@ class PartWriter {
       if (value == Json{}) {
         TRY(value, said_of(cutters(member, end), field, of));
       }
+      if (value == Json{} && of == &OwnCut::groove) value = flush_in_plate(cutters(member, end));
       if (value == Json{}) continue;
       std::ranges::find(out, field, &Json::Member::first)->second = std::move(value);
     }
@@ -183,6 +194,7 @@ class PartWriter {
   [[nodiscard]] std::string cutter_name(const frame::Cutter& one, const Names& names) const {
     const auto& joint = frame_.joints[one.joint];
     if (joint.other) return request_.spec.others[joint.chord].name;
+    if (joint.plate) return request_.spec.plates[joint.chord].name;
     if (std::holds_alternative<joint::PlaneCutter>(one.partner)) return {};
     return names.of_members[joint.chord];
   }
@@ -291,29 +303,6 @@ struct Forms {
   std::vector<std::unique_ptr<const Parts::Spec>> read;
 };
 
-/// Gives a part that is not round the target and marks of a round one of the same girth, by which
-/// parts are compared.
-void compare_by_girth(Parts::Spec& spec) {
-  const auto& section = spec.section->section;
-  const double radius = section.outer().girth() / kTwoPi;
-  spec.part.target = {.outer_radius = radius, .wall = section.wall, .length = spec.section->length};
-  for (const auto& mark : spec.of_section.partners)
-    spec.part.partners.push_back({.kind = mark.kind,
-                                  .text = mark.text,
-                                  .phi = mark.s / radius,
-                                  .z_from = mark.z_from,
-                                  .z_to = mark.z_to});
-}
-
-std::unique_ptr<const Parts::Spec> read(const Json& part) {
-  Reader in(part);
-  (void)read_common_fields(in, Parts::kAccepts);
-  auto spec = Parts::decode(in);
-  if (!in.finish_root().empty()) return nullptr;
-  if (spec.section) compare_by_girth(spec);
-  return std::make_unique<const Parts::Spec>(std::move(spec));
-}
-
 Result<Forms> forms(const PartWriter& writer, const Names& names) {
   Forms out;
   std::map<std::string, std::size_t> known;
@@ -325,7 +314,7 @@ Result<Forms> forms(const PartWriter& writer, const Names& names) {
     out.of_members.push_back(at->second);
     if (!fresh) continue;
     out.texts.push_back(std::move(text));
-    out.read.push_back(read(part));
+    out.read.push_back(read_part(part));
   }
   return out;
 }

@@ -102,6 +102,7 @@ class Sources {
     const auto& one = frame_.frame.joints[index];
     const bool size = rest == "/outer_diameter_mm";
     if (one.other) return other_at(frame_, one.chord) + (size ? rest : "");
+    if (one.plate) return "/plates/" + std::to_string(one.chord);
     const bool faces =
         one.how.kind == frame::How::Kind::mitre || one.how.kind == frame::How::Kind::butt;
     if (faces && one.stated) return joint_at(frame_, *one.stated);

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "api/endpoints/bevel_table_codec.hpp"
+#include "api/endpoints/frames/frame_bodies.hpp"
 #include "api/endpoints/frames/node_codec.hpp"
+#include "api/endpoints/frames/plate_codec.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/limits.hpp"
 #include "api/wire/bevel_names.hpp"
@@ -27,45 +29,6 @@ constexpr Range kDensity{.min = 100.0, .max = 25'000.0};  // kg/m^3
 constexpr std::size_t kMostOthers = 1'000;                // that joints name
 constexpr std::size_t kMostOthersGiven = 100'000;
 constexpr auto kMostJoints = 2 * static_cast<std::size_t>(limit::members_max);
-
-/// A member or one of the others.
-struct BodyRef {
-  std::size_t index = 0;
-  bool other = false;
-};
-struct BodyIndex {
-  std::map<std::string, BodyRef, std::less<>> by_id;
-  bool complete = true;
-};
-
-BodyIndex body_index(Reader& in, const NamedMembers& members,
-                     const std::vector<WorldCutter>& others) {
-  BodyIndex out{.by_id = {}, .complete = members.ids.complete && !in.refused()};
-  for (const auto& [id, index] : members.ids.indices) out.by_id.emplace(id, BodyRef{index, false});
-  for (std::size_t i = 0; i < others.size(); ++i)
-    if (!others[i].name.empty() && !out.by_id.emplace(others[i].name, BodyRef{i, true}).second) {
-      out.complete = false;
-      in.issue({.code = ErrorCode::duplicate_id,
-                .pointer = "others/" + std::to_string(i) + "/id",
-                .got = Json{others[i].name},
-                .hint = "duplicate: another one has this id"});
-    }
-  return out;
-}
-
-std::optional<BodyRef> known(Reader& in, const BodyIndex& bodies, const std::string& id,
-                             const std::string& pointer) {
-  if (const auto found = bodies.by_id.find(id); found != bodies.by_id.end()) return found->second;
-  if (id.empty() || !bodies.complete) return std::nullopt;  // has its issue already
-  std::vector<std::string> names;
-  for (const auto& [name, body] : bodies.by_id) names.push_back(name);
-  const auto near = nearest_name(id, names);
-  in.issue({.code = ErrorCode::bad_choice,
-            .pointer = pointer,
-            .got = Json{id},
-            .hint = near.empty() ? "no member has this id" : "did you mean " + near + "?"});
-  return std::nullopt;
-}
 
 /// Returns whether the branch enters the chord's wall, so that it has a hole by default.
 bool enters(How::Kind kind) { return kind == How::Kind::set_in || kind == How::Kind::through; }
@@ -230,18 +193,21 @@ void decode_own_ends(Reader& in, const NamedMembers& members, const bevel::Table
 void decode_between(Reader& in, const BodyIndex& bodies, frame::StatedJoint& out) {
   const auto ids = in.text_column("between", {.min = 2, .max = 2});
   if (ids.size() != 2) return;
-  auto a = known(in, bodies, ids[0], "between/0");
-  auto b = known(in, bodies, ids[1], "between/1");
+  auto a = known_body(in, bodies, ids[0], "between/0");
+  auto b = known_body(in, bodies, ids[1], "between/1");
   if (!a || !b) return;
-  if (a->other) std::swap(a, b);
-  if (a->other || ids[0] == ids[1])
+  using Of = BodyRef::Of;
+  if (a->of != Of::members) std::swap(a, b);
+  const bool none = a->of != Of::members;
+  if (none || ids[0] == ids[1])
     in.issue({.code = ErrorCode::bad_choice,
               .pointer = "between",
-              .hint = a->other ? "one of the two must be a member" : "a member cannot join itself"},
+              .hint = none ? "one of the two must be a member" : "a member cannot join itself"},
              in.find("between"));
   out.member = a->index;
   out.with = b->index;
-  out.other = b->other;
+  out.other = b->of == Of::others;
+  out.plate = b->of == Of::plates;
 }
 
 /// Checks that an end is named if it is not detected: for `others`, and for joints that are only
@@ -250,7 +216,7 @@ void decode_named_end(Reader& in, bool by_nearness, frame::StatedJoint& out) {
   in.note("end");
   if (!in.has("end")) return;
   out.end = in.choice("end", kNames<joint::End>);
-  if (by_nearness && !out.other && !in.refused())
+  if (by_nearness && out.of_members() && !in.refused())
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "end",
               .hint = "within_mm finds the ends of members; omit it"},
@@ -265,7 +231,9 @@ void decode_joint(Reader& in, const BodyIndex& bodies, const bevel::TableSpec& c
   const auto kind = in.tag("kind", kNames<How::Kind>);
   joint.how.kind = kind.value_or(How::Kind::set_on);
   decode_how(in, kind.has_value(), joint.how);
-  if (kind && joint.other && joint.how.kind != How::Kind::set_on)
+  if (joint.plate)
+    check_plate_joint(in, kind.has_value(), joint);
+  else if (kind && joint.other && joint.how.kind != How::Kind::set_on)
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "kind",
               .limit = Json{"set_on"},
@@ -333,7 +301,7 @@ void check_frame_accepts(Reader& in, const FrameRequest& frame) {
   const auto& spec = frame.spec;
   const bool sound = in.sound("members");
   const auto round = [](const joint::Member& m) { return !m.section; };
-  const auto hole = [](const frame::StatedJoint& joint) { return joint.how.hole; };
+  const auto hole = [](const frame::StatedJoint& joint) { return joint.how.hole && !joint.plate; };
   check_accepts(in, {.preset = frame.preset,
                      .round = !sound || std::ranges::any_of(spec.members, round),
                      .cutouts = !sound || any(frame.cutouts),
@@ -350,7 +318,8 @@ FrameRequest decode_frame_request(Reader& in) {
   in.note("others");
   if (in.has("others"))
     others = in.array("others", {.min = 0, .max = kMostOthersGiven}, decode_world_cutter);
-  const auto bodies = body_index(in, members, others);
+  out.spec.plates = decode_plates(in);
+  const auto bodies = body_index(in, members, others, out.spec.plates);
   out.spec.members = members.members;
   out.walls = members.walls;
   out.sections = members.sections;

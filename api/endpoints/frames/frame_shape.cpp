@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "api/endpoints/section_target.hpp"
+#include "api/wire/common_fields.hpp"
 #include "api/wire/writer.hpp"
+#include "core/base/angle.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -56,6 +58,20 @@ std::string end_key(const Json& end, std::vector<std::string>& partners) {
   return dump(without(end, kPlaced));
 }
 
+/// Gives a part that is not round the target and marks of a round one of the same girth, by which
+/// parts are compared.
+void compare_by_girth(Parts::Spec& spec) {
+  const auto& section = spec.section->section;
+  const double radius = section.outer().girth() / kTwoPi;
+  spec.part.target = {.outer_radius = radius, .wall = section.wall, .length = spec.section->length};
+  for (const auto& mark : spec.of_section.partners)
+    spec.part.partners.push_back({.kind = mark.kind,
+                                  .text = mark.text,
+                                  .phi = mark.s / radius,
+                                  .z_from = mark.z_from,
+                                  .z_to = mark.z_to});
+}
+
 }  // namespace
 
 frame::Shape shape_of(const Json& part) {
@@ -84,6 +100,15 @@ frame::Shape shape_of(const Json& part) {
       out.holes.push_back(partner_key(branch) + dump(without(one, kBranch)));
     }
   return out;
+}
+
+std::unique_ptr<const Parts::Spec> read_part(const Json& part) {
+  Reader in(part);
+  (void)read_common_fields(in, Parts::kAccepts);
+  auto spec = Parts::decode(in);
+  if (!in.finish_root().empty()) return nullptr;
+  if (spec.section) compare_by_girth(spec);
+  return std::make_unique<const Parts::Spec>(std::move(spec));
 }
 
 }  // namespace tubecut::api

@@ -9,6 +9,7 @@
 #include "api/endpoints/frames/frame_bundle.hpp"
 #include "api/endpoints/frames/frame_formats.hpp"
 #include "api/endpoints/frames/frame_pointers.hpp"
+#include "api/endpoints/frames/plate_answer.hpp"
 #include "api/endpoints/parts.hpp"
 #include "api/pipeline.hpp"
 #include "api/wire/common_fields.hpp"
@@ -62,6 +63,8 @@ struct FrameBase {
                  {"joint_in_world", "1e-5 max(1, 1e-5 (height + offset))", "mm"},
                  {"joint_faces", "1e-5 max(1, 1e-5 distance)", "mm"},
                  {"joint_sides", "0", "mm"},
+                 {"plate_clear", "1e-6", "mm"},
+                 {"plate_web", "1e-6", "mm"},
              }),
              Parts::kChecks);
 
@@ -117,6 +120,7 @@ struct FrameBase {
     spec.part_of.resize(spec.spec.members.size());
     for (std::size_t i = 0; i < spec.parts.size(); ++i)
       for (const auto member : spec.parts[i].members) spec.part_of[member] = i;
+    spec.plate_parts = plate_parts_of(spec);
     return spec;
   }
 
@@ -127,6 +131,9 @@ struct FrameBase {
       asked.push_back(own == nullptr ? nullptr : &own->part);
     }
     auto checks = frame::verify(spec.spec, spec.frame, asked);
+    for (std::size_t i = 0; i < spec.frame.plates.size(); ++i)
+      keep_worst(checks, plate::verify(spec.spec.plates[i], spec.frame.plates[i].passing,
+                                       spec.frame.plates[i].plate));
     for (const auto& part : out)
       if (part.made) keep_worst(checks, part.made->answer.checks);
     return checks;
@@ -212,6 +219,7 @@ struct Frames : FrameBase {
     write_members(spec, out, w);
     write_joints(spec, out, w);
     write_cut_list(spec, out, w);
+    write_plates(spec, w);
     write_totals(spec, out, w);
     write_not_cut(spec, w);
     write_merged(spec, w);
@@ -233,6 +241,7 @@ struct FrameLines : FrameBase {
     write_members(spec, out, w);
     write_joints(spec, out, w);
     write_cut_list(spec, out, w);
+    write_plates(spec, w);
     write_not_cut(spec, w);
     write_merged(spec, w);
     if (spec.others_left_out > 0) w.field("others_left_out", spec.others_left_out);

@@ -1,9 +1,12 @@
 #include "api/formats/dxf/dxf_writer.hpp"
 
 #include <charconv>
+#include <cmath>
 
 #include "api/formats/text.hpp"
 #include "api/stop.hpp"
+#include "core/base/angle.hpp"
+#include "core/base/elementary.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -173,6 +176,30 @@ void DxfWriter::polyline(const Layer& layer, const std::vector<Eigen::Vector3d>&
     see(p);
   }
   part("SEQEND");
+}
+
+void DxfWriter::chain(const Layer& layer, const cutout::Chain& chain) {
+  const auto box = cutout::bounds(chain);
+  for (const auto& p : {box.least, box.most}) see({p.x(), p.y(), 0.0});
+  if (const auto& one = chain.front(); chain.size() == 1 && std::abs(one.sweep) == kTwoPi) {
+    entity("CIRCLE", layer, "AcDbCircle");
+    group(10, one.centre.x());
+    group(20, one.centre.y());
+    group(30, 0.0);
+    group(40, one.radius);
+    return;
+  }
+  entity("LWPOLYLINE", layer, "AcDbPolyline");
+  group(90, static_cast<int>(chain.size()));
+  group(70, 1);
+  for (const auto& s : chain) {
+    ask();
+    group(10, s.from.x());
+    group(20, s.from.y());
+    if (!s.arc()) continue;
+    const auto quarter = elementary::sincos(0.25 * s.sweep);
+    group(42, fixed(quarter.sin / quarter.cos, 12));
+  }
 }
 
 void DxfWriter::text(const Layer& layer, const Eigen::Vector2d& at, double height,

@@ -5,9 +5,11 @@
 #include <string_view>
 #include <vector>
 
+#include "core/cutout/chain.hpp"
+
 namespace tubecut::api {
 
-/// Entities of a DXF R2000 drawing in millimetres; lines, polylines and text only.
+/// Entities of a DXF R2000 drawing in millimetres; lines, polylines, circles and text only.
 class DxfWriter {
  public:
   struct Layer {
@@ -21,6 +23,8 @@ class DxfWriter {
   /// Points (x, y); omits those equal to their predecessor.
   void polyline(const Layer& layer, const std::vector<Eigen::Vector2d>& points, bool closed);
   void polyline(const Layer& layer, const std::vector<Eigen::Vector3d>& points, bool closed);
+  /// A closed chain: a circle, or a polyline whose arcs are bulges.
+  void chain(const Layer& layer, const cutout::Chain& chain);
   void text(const Layer& layer, const Eigen::Vector2d& at, double height, std::string_view what);
 
   [[nodiscard]] std::string print() const;

@@ -62,7 +62,7 @@ export function freeName(taken: ReadonlySet<string>, like: string): string {
     if (!taken.has(name)) return name;
   }
 }
-export const namesOf = (body: Row): Set<string> => new Set([...membersOf(body), ...rowsOf(body['others'])].map(idOf));
+export const namesOf = (body: Row): Set<string> => new Set([...membersOf(body), ...rowsOf(body['others']), ...rowsOf(body['plates'])].map(idOf));
 
 /** Why a member cannot have a name. */
 export function nameRefused(body: Row, index: number, to: string): string | undefined {

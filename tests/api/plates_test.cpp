@@ -1,0 +1,185 @@
+// Plates of a frame: what the answer states of them, and what of a request is refused.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/angle.hpp"
+#include "tests/support/call.hpp"
+
+namespace tubecut::testing::frame_plates {
+
+using api::Json;
+
+constexpr const char* kFrames = "/v1/frames";
+
+Json parsed(const std::string& text) { return *api::parse(text); }
+
+/// A post on a base plate, and a rail through a web plate.
+Json frame() {
+  return parsed(R"({
+    "members": [
+      {"id": "P", "start_mm": [0, 0, 0], "end_mm": [0, 0, 1000], "outer_diameter_mm": 88.9,
+       "wall_mm": 4},
+      {"id": "R", "start_mm": [300, -200, 500], "end_mm": [300, 200, 500],
+       "outer_diameter_mm": 42.4, "wall_mm": 3.2}],
+    "plates": [
+      {"id": "BP", "point_mm": [0, 0, 0], "normal": [0, 0, 2], "up": [0, 1, 0],
+       "thickness_mm": 15,
+       "outline": {"kind": "rectangle", "width_mm": 200, "height_mm": 180},
+       "cutouts": [{"id": "bolt", "shape": {"kind": "circle", "diameter_mm": 18},
+                    "at_mm": [-70, -60],
+                    "pattern": {"kind": "grid", "columns": 2, "rows": 2, "column_pitch_mm": 140,
+                                "row_pitch_mm": 120}}]},
+      {"id": "W", "point_mm": [300, 0, 500], "normal": [0, 1, 0], "up": [0, 0, 1],
+       "thickness_mm": 10, "outline": {"kind": "circle", "diameter_mm": 120}}],
+    "joints": [{"between": ["BP", "P"], "kind": "set_on", "gap_mm": 2},
+               {"between": ["R", "W"], "kind": "through", "gap_mm": 0.5}],
+    "defaults": {"root_surface": "inner", "groove": {"rule": "half_dihedral"},
+                 "smoothing": {"method": "none"}},
+    "kerf_mm": 1.5, "sampling": {"tolerance_mm": 0.1}})");
+}
+
+TEST(FramePlates, AreListedWithHolesMarksAndMass) {
+  const auto answer = post(kFrames, frame());
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body;
+  const auto& base = at(answer.body, "result/plates/0");
+  EXPECT_EQ(text(base, "plate"), "BP");
+  EXPECT_EQ(number(base, "width_mm"), 200.0);
+  EXPECT_EQ(number(base, "height_mm"), 180.0);
+  const double area = 200.0 * 180.0 - 4.0 * kPi * 81.0;
+  EXPECT_NEAR(number(base, "area_mm2"), area, 1e-5);
+  EXPECT_NEAR(number(base, "mass_kg"), area * 15.0 * 7850e-9, 1e-5);
+  EXPECT_NEAR(number(base, "web_mm"), 21.0, 1e-6);
+  EXPECT_EQ(at(base, "holes").as<Json::Array>()->size(), 4u);
+  EXPECT_EQ(text(base, "marks/0/part"), "P");
+  EXPECT_EQ(text(base, "marks/0/face"), "front");
+  const auto& web = at(answer.body, "result/plates/1");
+  EXPECT_EQ(text(web, "holes/0/part"), "R");
+  EXPECT_NEAR(number(web, "holes/0/diameter_mm"), 43.4, 1e-9);
+  EXPECT_EQ(number(answer.body, "result/totals/plates"), 2.0);
+  EXPECT_NEAR(number(answer.body, "result/totals/plates_mass_kg"),
+              number(base, "mass_kg") + number(web, "mass_kg"), 1e-5);
+}
+
+TEST(FramePlates, EndsAreCutAtTheFaceWithTheirGap) {
+  const auto answer = post(kFrames, frame());
+  const auto& joint = at(answer.body, "result/joints/0");
+  EXPECT_EQ(text(joint, "branch"), "P");
+  EXPECT_EQ(text(joint, "chord"), "BP");
+  const auto& request = at(answer.body, "parts/0/answer/request");
+  EXPECT_EQ(text(request, "ends/start/cutters/0/kind"), "plane");
+  EXPECT_EQ(text(request, "ends/start/cutters/0/id"), "BP");
+  EXPECT_EQ(number(request, "ends/start/joints/0/gap_mm"), 2.0);
+  EXPECT_EQ(text(answer.body, "result/joints/1/kind"), "through");
+  EXPECT_EQ(text(answer.body, "result/joints/1/hole"), "cut");
+  EXPECT_NEAR(number(answer.body, "result/joints/1/fit_up/greatest_root_mm"), 0.5, 1e-9);
+  EXPECT_NEAR(number(answer.body, "result/joints/1/weld_mm"), kPi * 43.4, 1e-6);
+  // What passes through is not cut there.
+  const auto& through = at(answer.body, "parts/1/answer/request");
+  EXPECT_EQ(number(through, "ends/start/square_at_mm"), 0.0);
+}
+
+TEST(FramePlates, AnEndSetInIsFlushAtItsDepth) {
+  auto body = with(frame(), "joints/0",
+                   parsed(R"({"between": ["P", "BP"], "kind": "set_in", "gap_mm": 0.5})"));
+  const auto answer = post(kFrames, body);
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body;
+  EXPECT_EQ(number(answer.body, "result/joints/0/depth_mm"), 15.0);
+  EXPECT_NEAR(number(answer.body, "result/plates/0/holes/4/diameter_mm"), 89.9, 1e-9);
+  const auto& request = at(answer.body, "parts/0/answer/request");
+  EXPECT_EQ(text(request, "ends/start/groove/rule"), "none");
+  EXPECT_EQ(number(request, "ends/start/joints/0/gap_mm"), 0.0);
+  // The kerf is outside the part: it is 15 mm longer than between its work points.
+  EXPECT_NEAR(number(answer.body, "parts/0/answer/result/lengths/long_mm"), 1015.0, 1e-6);
+  body = with(body, "joints/0/depth_mm", 15.5);
+  const auto refused = post(kFrames, body);
+  EXPECT_NE(error_at(refused, "/joints/0/depth_mm"), nullptr) << refused.outcome.body;
+}
+
+TEST(FramePlates, EqualPlatesAreOne) {
+  auto body = frame();
+  auto& members = *const_cast<Json&>(at(body, "members")).as<Json::Array>();
+  auto& plates = *const_cast<Json&>(at(body, "plates")).as<Json::Array>();
+  auto& joints = *const_cast<Json&>(at(body, "joints")).as<Json::Array>();
+  members.push_back(
+      with(with(with(members[0], "id", "P2"), "start_mm/0", 700.0), "end_mm/0", 700.0));
+  plates.push_back(with(with(plates[0], "id", "BP2"), "point_mm/0", 700.0));
+  joints.push_back(with(joints[0], "between", parsed(R"(["P2", "BP2"])")));
+  const auto answer = post(kFrames, body);
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body;
+  EXPECT_EQ(at(answer.body, "result/plates").as<Json::Array>()->size(), 2u);
+  EXPECT_EQ(number(answer.body, "result/plates/0/count"), 2.0);
+  EXPECT_EQ(text(answer.body, "result/plates/0/ids/1"), "BP2");
+  plates[2] = with(plates[2], "cutouts/0/shape/diameter_mm", 19.0);
+  const auto other = post(kFrames, body);
+  EXPECT_EQ(at(other.body, "result/plates").as<Json::Array>()->size(), 3u);
+}
+
+TEST(FramePlates, ATubeThroughAPlateWithoutAJointIsReported) {
+  auto body = frame();
+  const_cast<Json&>(at(body, "joints")).as<Json::Array>()->pop_back();
+  const auto answer = post(kFrames, body);
+  ASSERT_FALSE(answer.outcome.error);
+  EXPECT_EQ(text(answer.body, "warnings/0/code"), "members_overlap");
+  EXPECT_EQ(text(answer.body, "warnings/0/pointer"), "/members/1");
+  EXPECT_EQ(text(answer.body, "verdict/status"), "review");
+}
+
+struct Mistake {
+  const char *path, *value, *code, *pointer;
+};
+
+TEST(FramePlates, MistakesAreRefusedAtTheirFields) {
+  const Mistake all[] = {
+      {"plates/0/thickness_mm", "0", "out_of_range", "/plates/0/thickness_mm"},
+      {"plates/0/normal", "[0, 0, 0]", "zero_length", "/plates/0/normal"},
+      {"plates/0/up", "[0, 0, 1]", "bad_reference_direction", "/plates/0/up"},
+      {"plates/0/id", "\"P\"", "duplicate_id", "/plates/0/id"},
+      {"plates/0/holes", "[]", "unknown_field", "/plates/0/holes"},
+      {"plates/0/outline/kind", "\"triangle\"", "bad_choice", "/plates/0/outline/kind"},
+      {"plates/0/outline/along_mm", "5", "unknown_field", "/plates/0/outline/along_mm"},
+      {"plates/0/outline/corner_radius_mm", "95", "out_of_range",
+       "/plates/0/outline/corner_radius_mm"},
+      {"plates/0/outline",
+       R"({"kind": "contour", "start_mm": [0, 0], "pieces": [{"kind": "line", "to_mm": [9, 0]},
+           {"kind": "line", "to_mm": [0, 9]}]})",
+       "contour_open", "/plates/0/outline"},
+      {"plates/0/cutouts/0/at_mm", "[-95, -60]", "cutout_off_part", "/plates/0/cutouts/0"},
+      {"plates/0/cutouts/0/pattern/row_pitch_mm", "10", "cutouts_cross", "/plates/0/cutouts/0"},
+      {"plates/0/cutouts/0/pattern/column_pitch_mm", "0", "out_of_range",
+       "/plates/0/cutouts/0/pattern/column_pitch_mm"},
+      {"plates/0/min_web_mm", "22", "out_of_range", "/plates/0/cutouts/0"},
+      {"joints/0/kind", "\"mitre\"", "unsupported_combination", "/joints/0/kind"},
+      {"joints/0/hole", "\"cut\"", "unsupported_combination", "/joints/0/hole"},
+      {"joints/1/hole", "\"none\"", "unsupported_combination", "/joints/1/hole"},
+      {"joints/1/end", "\"start\"", "unsupported_combination", "/joints/1/end"},
+      {"joints/1/groove", R"({"rule": "none"})", "unsupported_combination", "/joints/1/groove"},
+      {"joints/1/between", R"(["BP", "W"])", "bad_choice", "/joints/1/between"},
+      {"joints/1/between", R"(["R", "BP"])", "no_contact", "/joints/1"},
+      {"joints/1/gap_mm", "45", "cutout_off_part", "/joints/1"},
+      {"members/0/start_mm/0", "0.5", "", ""},
+      {"plates/0/point_mm", "[500, 0, 0]", "no_contact", "/joints/0"},
+  };
+  for (const auto& one : all) {
+    const auto answer = post(kFrames, with(frame(), one.path, parsed(one.value)));
+    if (*one.code == '\0') {
+      EXPECT_FALSE(answer.outcome.error) << one.path;
+      continue;
+    }
+    const auto* error = error_at(answer, one.pointer);
+    ASSERT_NE(error, nullptr) << one.path << " " << answer.outcome.body;
+    EXPECT_EQ(text(*error, "code"), one.code) << one.path;
+  }
+}
+
+TEST(FramePlates, AllMistakesAreToldAtOnce) {
+  auto body = with(frame(), "plates/0/cutouts/0/shape", parsed(R"({"kind": "slot",
+    "length_mm": 10, "width_mm": 20})"));
+  body = with(body, "plates/1/outline/diameter_mm", 30.0);
+  const auto answer = post(kFrames, body);
+  EXPECT_NE(error_at(answer, "/plates/0/cutouts/0/shape/width_mm"), nullptr) << answer.outcome.body;
+  EXPECT_NE(error_at(answer, "/joints/1"), nullptr) << answer.outcome.body;
+}
+
+}  // namespace tubecut::testing::frame_plates
