@@ -271,7 +271,7 @@ export function checkSectionEnd(scope: Scope, whole: SectionCut, result: Body, k
   const {cut, outer, bore} = whole;
   const events = (result.events ?? []) as unknown as Event[];
   const rows = rowsOfSection(whole, columns);
-  const rules = checkRows(scope, whole, rows, columns, result, events);
+  const rules = checkRows(scope, whole, rows, result, events);
   for (const [surface, of] of [
     ['inner', bore],
     ['outer', outer],
@@ -291,7 +291,7 @@ export function checkSectionEnd(scope: Scope, whole: SectionCut, result: Body, k
 }
 
 /** Every row by itself; returns B of the rule before the torch's range. */
-function checkRows(scope: Scope, {cut, outer, bore}: SectionCut, rows: Row[], columns: Columns, result: Body, events: Event[]): (number | undefined)[] {
+function checkRows(scope: Scope, {cut, outer, bore}: SectionCut, rows: Row[], result: Body, events: Event[]): (number | undefined)[] {
   const points = result.points as unknown as {[name: string]: number[]} & {on_corner: boolean[]; corner?: boolean[]; zone?: string[]};
   const [whole, inside] = [girth(outer), girth(bore)];
   const rootOutside = cut.root === 'outer';
