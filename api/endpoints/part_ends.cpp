@@ -81,6 +81,37 @@ void decode_end_joints(Reader& in, const std::string& end, bevel::TableSpec& out
   });
 }
 
+constexpr std::size_t kMostEndTabs = 32;
+constexpr Range kTabSize{.min = 0.1, .max = 1e4};  // mm
+
+/// Decodes the tabs of an end, which is cut square for them.
+std::vector<part::EndTab> decode_end_tabs(Reader& in, bool on_section,
+                                          const bevel::TableSpec& cut) {
+  in.note("end_tabs");
+  if (!in.has("end_tabs")) return {};
+  const auto refuse = [&](const char* field, const char* hint) {
+    in.issue({.code = ErrorCode::unsupported_combination, .pointer = field, .hint = hint},
+             in.find(field));
+  };
+  if (!on_section) {
+    refuse("end_tabs", "requires a target that is not round");
+    return {};
+  }
+  auto out = in.array("end_tabs", {.min = 0, .max = kMostEndTabs}, [](Reader& t) {
+    part::EndTab tab{.face = t.integer("face", 1, 4)};
+    tab.offset = t.number("offset_mm", kOffset, 0.0);
+    tab.width = t.number("width_mm", kTabSize);
+    tab.length = t.number("length_mm", kTabSize);
+    return tab;
+  });
+  if (out.empty()) return out;
+  if (!std::holds_alternative<bevel::SquareCut>(cut.groove) && in.understood("groove"))
+    refuse("groove", "an end with tabs is cut square: rule square");
+  if (cut.root_face > 0.0)
+    refuse("root_face_mm", "an end with tabs is cut square, without a root face");
+  return out;
+}
+
 part::EndSpec decode_end(Reader& in, const std::string& end, const bevel::TableSpec& once,
                          PartRequest& request) {
   const auto which = in.exactly_one({"cutters", "square_at_mm"});
@@ -90,11 +121,22 @@ part::EndSpec decode_end(Reader& in, const std::string& end, const bevel::TableS
   }
   part::EndSpec out{.cut = once};
   if (const auto own = in.optional_number("kerf_mm", kKerf)) out.cut.kerf = *own;
-  if (which == 1) return part::square_end(out.cut, in.number("square_at_mm", kOffset));
+  if (which == 1) {
+    in.note("end_tabs");
+    if (in.has("end_tabs"))
+      in.issue({.code = ErrorCode::unsupported_combination,
+                .pointer = "end_tabs",
+                .hint = "requires cutters: a tab goes into one of them"},
+               in.find("end_tabs"));
+    return part::square_end(out.cut, in.number("square_at_mm", kOffset));
+  }
   out.cut.partners = decode_cutters(in);
   decode_end_joints(in, end, out.cut, request.warnings);
   decode_cut(in, false, request.preset, out.cut);
   if (request.section) refuse_round_only(in, out.cut);
+  auto& section = request.of_section;
+  (end == "start" ? section.start_tabs : section.finish_tabs) =
+      decode_end_tabs(in, request.section.has_value(), out.cut);
   return out;
 }
 

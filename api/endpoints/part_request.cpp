@@ -350,7 +350,11 @@ Result<PartRequest> resolve(PartRequest r) {
   if (r.section && !r.member) {
     TRY(cut_square_holes(r));
     auto marks = std::move(r.of_section.partners);
+    auto start_tabs = std::move(r.of_section.start_tabs);
+    auto finish_tabs = std::move(r.of_section.finish_tabs);
     r.of_section = section_part_of(*r.section, r.part);
+    r.of_section.start_tabs = std::move(start_tabs);
+    r.of_section.finish_tabs = std::move(finish_tabs);
     r.of_section.length = r.section->length.value_or(0.0);
     r.of_section.partners = std::move(marks);
     return r;

@@ -12,7 +12,8 @@ inline constexpr auto kNames<frame::How::Kind> = std::to_array<Option<frame::How
      {name_of(joint::JointKind::set_in), frame::How::Kind::set_in},
      {name_of(joint::JointKind::through), frame::How::Kind::through},
      {name_of(joint::JointKind::mitre), frame::How::Kind::mitre},
-     {"butt", frame::How::Kind::butt}});
+     {"butt", frame::How::Kind::butt},
+     {"tab_slot", frame::How::Kind::tab_slot}});
 template <>
 inline constexpr auto kNames<frame::Why> =
     std::to_array<Option<frame::Why>>({{"free", frame::Why::free},

@@ -38,6 +38,7 @@ tl::unexpected<Error> contradicts(std::size_t joint, const std::string& field,
 joint::JointKind of_node(How::Kind kind) {
   switch (kind) {
     case How::Kind::set_on:
+    case How::Kind::tab_slot:
       return joint::JointKind::set_on;
     case How::Kind::set_in:
       return joint::JointKind::set_in;
@@ -115,6 +116,10 @@ Result<joint::Link> link(const FrameSpec& spec, const joint::NodeSpec& node, std
   const auto& a = spec.members[chord];
   const auto& z = spec.members[branch];
   if (ends_between(a, z) && !ends_between(z, a)) std::swap(chord, branch);
+  if (said.how.kind == How::Kind::tab_slot) {  // the statement names the branch first
+    branch = said.member;
+    chord = said.with;
+  }
   const auto& c = spec.members[chord];
   const auto& b = spec.members[branch];
   const auto end = said.end.value_or(nearer_end(b, c));

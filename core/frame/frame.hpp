@@ -32,7 +32,8 @@ struct How {
     set_in,
     through,
     mitre,
-    butt  // two ends in line, face to face, both square
+    butt,     // two ends in line, face to face, both square
+    tab_slot  // set on, with tabs of the branch in slots of the chord
   };
   Kind kind = Kind::set_on;
   double gap = 0.0;

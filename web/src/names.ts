@@ -38,6 +38,7 @@ const exampleNames: Record<string, string> = {
   'nodes/k-joint-from-centre-lines': later('A K joint, from centre-lines'),
   'nodes/k-joint-with-tables': later('A K joint, with the tables of its cuts'),
   'frames/rhs-gate': later('A gate of rectangular tubes by a tube laser'),
+  'frames/sign-frame-with-tab-and-slot': later('A sign frame with tabs and slots'),
   'frames/rhs-trailer': later('A trailer frame of rectangular tubes'),
   'frames/rhs-rack': later('A storage rack of square and rectangular tubes'),
   'frames/rhs-truss-with-gap-k-joints': later('A truss of square tubes with gap K joints'),

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "api/endpoints/frames/plate_answer.hpp"
+#include "api/endpoints/frames/tab_slots.hpp"
 #include "api/endpoints/place_text.hpp"
 #include "api/wire/answer_text.hpp"
 #include "api/wire/frame_names.hpp"
@@ -34,6 +35,11 @@ double along(const Table& t, std::size_t cutter) {
 template <class End>
 std::pair<double, double> seam_of(const End& end, std::size_t cutter) {
   return {along(end.own, cutter), end.groove_volume};
+}
+/// The weld of an end with tabs runs along its shoulder.
+template <>
+std::pair<double, double> seam_of(const part::SectionEnd& end, std::size_t cutter) {
+  return {along(end.shoulder ? *end.shoulder : end.own, cutter), end.groove_volume};
 }
 
 template <class T>
@@ -153,6 +159,8 @@ void write_joint(const FrameJob& frame, const frame::FrameJoint& joint, const Se
     o.field("depth_mm", *joint.how.depth);
   if (joint.how.kind == frame::How::Kind::mitre) o.field("plane", name_of(joint.how.plane));
   o.field("hole", joint.how.hole ? "cut" : "none");
+  for (std::size_t i = 0; i < frame.fitted.size(); ++i)
+    if (joint.stated == frame.tabs[i].joint) o.column("slots", slot_names(frame.tabs[i]));
   o.field("stated", joint.stated.has_value());
   if (!seam.whole) return;
   o.field("weld_mm", seam.weld);

@@ -46,6 +46,7 @@ struct FrameJob : FrameRequest, FrameParts {
   }
   std::optional<Merges> merged = {};
   std::vector<PlatePart> plate_parts = {};
+  std::vector<frame::FittedTabs> fitted = {};  // of each of `tabs`
 };
 
 /// A part as /v1/parts answers, or the reason for its absence.

@@ -187,6 +187,8 @@ class PartWriter {
     Json::Object out{{"cutters", Json{std::move(cutters)}}, {"joints", Json{std::move(joints)}}};
     TRY(auto how, cut(member, which));
     for (auto& one : how) out.push_back(std::move(one));
+    if (const auto tabs = request_.end_tabs.find({member, which}); tabs != request_.end_tabs.end())
+      out.emplace_back("end_tabs", tabs->second);
     return Json{std::move(out)};
   }
 

@@ -82,6 +82,10 @@ class Sources {
       const bool sized = steps.size() > 1 && steps[1] != "length_mm" && steps[1] != "id";
       return member_at(frame_, member_) + (sized ? from(steps, 1) : "");
     }
+    if (steps[0] == "cutouts")
+      if (const auto slot = frame_.slots.find({member_, index_at(steps, 1).value_or(0)});
+          slot != frame_.slots.end() && steps.size() > 1)
+        return tab_at(slot->second.first, slot->second.second);
     if (steps[0] == "cutouts" || steps[0] == "texts")
       return member_at(frame_, member_) + from(steps, 0);
     for (const auto& [name, value] : frame_.once)
@@ -90,6 +94,9 @@ class Sources {
   }
 
  private:
+  [[nodiscard]] std::string tab_at(std::size_t stated, std::size_t tab) const {
+    return joint_at(frame_, stated) + "/tab_slots/" + std::to_string(tab);
+  }
   [[nodiscard]] const OwnCut* said(std::size_t joint) const {
     const auto& stated = frame_.frame.joints[joint].stated;
     return stated ? &frame_.cuts[*stated] : nullptr;
@@ -136,6 +143,8 @@ class Sources {
     const auto index = index_at(steps, 3);
     const auto own = "/members" + end_in_request(frame_, member_, finish) + "_mm";
     if (steps.size() < 3 || steps[2] == "square_at_mm" || cutters.empty()) return own;
+    if (steps[2] == "end_tabs" && index && frame_.frame.joints[cutters.front().joint].stated)
+      return tab_at(*frame_.frame.joints[cutters.front().joint].stated, *index) + from(steps, 4);
     if (steps[2] != "cutters" && steps[2] != "joints") return of_cut(steps, finish);
     if (!index) return own;
     if (steps[2] == "cutters")

@@ -9,6 +9,7 @@
 #include "api/endpoints/frames/frame_bodies.hpp"
 #include "api/endpoints/frames/node_codec.hpp"
 #include "api/endpoints/frames/plate_codec.hpp"
+#include "api/endpoints/frames/tab_slots.hpp"
 #include "api/endpoints/joint_codec.hpp"
 #include "api/limits.hpp"
 #include "api/wire/bevel_names.hpp"
@@ -230,7 +231,9 @@ void decode_joint(Reader& in, const BodyIndex& bodies, const bevel::TableSpec& c
   decode_named_end(in, out.spec.within.has_value(), joint);
   const auto kind = in.tag("kind", kNames<How::Kind>);
   joint.how.kind = kind.value_or(How::Kind::set_on);
-  decode_how(in, kind.has_value(), joint.how);
+  const bool tabs = joint.how.kind == How::Kind::tab_slot;
+  if (!kind) note_tab_slots(in);
+  if (!tabs) decode_how(in, kind.has_value(), joint.how);
   if (joint.plate)
     check_plate_joint(in, kind.has_value(), joint);
   else if (kind && joint.other && joint.how.kind != How::Kind::set_on)
@@ -245,7 +248,14 @@ void decode_joint(Reader& in, const BodyIndex& bodies, const bevel::TableSpec& c
               .limit = Json{"none"},
               .hint = "a body in others is not cut, so it has no hole"},
              in.find("hole"));
-  out.cuts.push_back(decode_joint_cut(in, joint.how, out.preset, cut));
+  if (tabs) {
+    const bool known = joint.member < out.spec.members.size();
+    out.tabs.push_back(decode_tab_slots(in, out.spec.joints.size(),
+                                        known ? out.spec.members[joint.member].name : ""));
+    out.cuts.push_back(cut_with_tabs());
+  } else {
+    out.cuts.push_back(decode_joint_cut(in, joint.how, out.preset, cut));
+  }
   out.spec.joints.push_back(joint);
 }
 
@@ -304,7 +314,7 @@ void check_frame_accepts(Reader& in, const FrameRequest& frame) {
   const auto hole = [](const frame::StatedJoint& joint) { return joint.how.hole && !joint.plate; };
   check_accepts(in, {.preset = frame.preset,
                      .round = !sound || std::ranges::any_of(spec.members, round),
-                     .cutouts = !sound || any(frame.cutouts),
+                     .cutouts = !sound || any(frame.cutouts) || !frame.tabs.empty(),
                      .holes = spec.found.hole || std::ranges::any_of(spec.joints, hole)});
 }
 
@@ -341,13 +351,12 @@ FrameRequest decode_frame_request(Reader& in) {
   out.alike_within = in.number("alike_within_mm", kAlike, kAlikeByDefault);
   in.note("merge_in_line");
   if (in.has("merge_in_line")) out.merge = in.flag("merge_in_line");
-  if (out.merge && (any(out.cutouts) || any(out.texts)))
-    in.issue(
-        {.code = ErrorCode::unsupported_combination,
-         .pointer = "merge_in_line",
-         .hint =
-             "cut-outs and texts are placed from a member's own ends; draw merged members as one"},
-        in.find("merge_in_line"));
+  if (out.merge && (any(out.cutouts) || any(out.texts) || !out.tabs.empty()))
+    in.issue({.code = ErrorCode::unsupported_combination,
+              .pointer = "merge_in_line",
+              .hint = "cut-outs, slots and texts are placed from a member's own ends; draw merged "
+                      "members as one"},
+             in.find("merge_in_line"));
   check_frame_accepts(in, out);
   decode_once(in, out);
   return out;

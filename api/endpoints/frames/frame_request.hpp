@@ -1,11 +1,14 @@
 #pragma once
 
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "api/endpoints/tube_laser.hpp"
 #include "api/wire/json.hpp"
 #include "api/wire/reader.hpp"
 #include "core/frame/frame.hpp"
+#include "core/frame/tab_slots.hpp"
 
 namespace tubecut::api {
 
@@ -41,8 +44,13 @@ struct FrameRequest {
   std::vector<OwnCut> cuts;   // of each stated joint
   std::vector<OwnEnd> ends;   // each end once
   bool merge = false;         // pieces in line are one member
-  Json::Object once;          // values that every part has once: preset, kerf, torch and
-                              // others
+  std::vector<frame::TabStatement> tabs;  // of joints of kind tab_slot
+  Json::Object once;  // values that every part has once: preset, kerf, torch and
+                      // others
+  // Once the frame is solved: tabs of ends, and by member and index of a cut-out in `cutouts` the
+  // stated joint and the tab that it is the slot of.
+  std::map<std::pair<std::size_t, joint::End>, Json> end_tabs = {};
+  std::map<std::pair<std::size_t, std::size_t>, std::pair<std::size_t, std::size_t>> slots = {};
 };
 
 [[nodiscard]] FrameRequest decode_frame_request(Reader& in);

@@ -82,6 +82,8 @@ frame::Shape shape_of(const Json& part) {
   const auto& ends = *part.find("ends");
   out.key += end_key(*ends.find("start"), out.start);
   out.key += end_key(*ends.find("finish"), out.finish);
+  for (const auto* end : {"start", "finish"})  // tabs are on numbered faces, as cut-outs are
+    out.has_cutouts = out.has_cutouts || ends.find(end)->find("end_tabs") != nullptr;
   for (const auto* name : {"cutouts", "texts"})
     if (const auto* own = part.find(name)) {
       out.key += dump(*own);

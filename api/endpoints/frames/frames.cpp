@@ -10,6 +10,7 @@
 #include "api/endpoints/frames/frame_formats.hpp"
 #include "api/endpoints/frames/frame_pointers.hpp"
 #include "api/endpoints/frames/plate_answer.hpp"
+#include "api/endpoints/frames/tab_slots.hpp"
 #include "api/endpoints/parts.hpp"
 #include "api/pipeline.hpp"
 #include "api/wire/common_fields.hpp"
@@ -65,6 +66,7 @@ struct FrameBase {
                  {"joint_sides", "0", "mm"},
                  {"plate_clear", "1e-6", "mm"},
                  {"plate_web", "1e-6", "mm"},
+                 {"tab_in_slot", "1e-5", "mm"},
              }),
              Parts::kChecks);
 
@@ -115,6 +117,7 @@ struct FrameBase {
     const auto as_asked = [&](Error error) { return in_request(spec, std::move(error)); };
     TRY(spec.frame, frame::solve(spec.spec).map_error(as_asked));
     for (auto& warning : spec.frame.warnings) warning.member = in_request(spec, warning.member);
+    TRY(add_tab_slots(spec).map_error(as_asked));
     TRY(auto parts, parts_of(spec, spec.frame).map_error(as_asked));
     static_cast<FrameParts&>(spec) = std::move(parts);
     spec.part_of.resize(spec.spec.members.size());
@@ -134,6 +137,7 @@ struct FrameBase {
     for (std::size_t i = 0; i < spec.frame.plates.size(); ++i)
       keep_worst(checks, plate::verify(spec.spec.plates[i], spec.frame.plates[i].passing,
                                        spec.frame.plates[i].plate));
+    for (auto& check : verify_tab_slots(spec)) checks.push_back(std::move(check));
     for (const auto& part : out)
       if (part.made) keep_worst(checks, part.made->answer.checks);
     return checks;

@@ -132,7 +132,7 @@ void check_plate_joint(Reader& in, bool known_kind, const frame::StatedJoint& jo
   using Kind = frame::How::Kind;
   if (!known_kind) return;
   const auto kind = joint.how.kind;
-  if (kind == Kind::mitre || kind == Kind::butt) {
+  if (kind == Kind::mitre || kind == Kind::butt || kind == Kind::tab_slot) {
     in.issue({.code = ErrorCode::unsupported_combination,
               .pointer = "kind",
               .limit = Json{"set_on, set_in or through"},

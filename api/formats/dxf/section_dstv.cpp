@@ -44,14 +44,19 @@ std::vector<NcPoint> edge_on(const section::Curve& outer, const NcFace& face,
     return half + (face.across_height ? p.x() : p.y());
   };
   std::vector<NcPoint> out;
+  const Eigen::Vector2d round(-normal.y(), normal.x());
+  const bool falls = (face.across_height ? round.x() : round.y()) < 0.0;
   const auto z = [&](double s) { return edge.at(s / girth * kTwoPi).high; };
   for (std::size_t i = 0; i < t.at.size(); ++i)
     if (t.at[i].normal.dot(normal) > 1e-9)
       out.push_back({t.z_outer[i], height(t.at[i].point), t.b[i]});
+  if (falls) std::ranges::reverse(out);  // two rows at one place stay in the order of the line
   const int before = face.face == 1 ? 4 : face.face - 1;
   for (const double s : {outer.on_corner(before, 0.0), outer.on_corner(face.face, 0.5 * kPi)})
     out.push_back({z(s), height(outer.at(s).point), out.empty() ? 0.0 : out.front().b});
   std::ranges::stable_sort(out, {}, &NcPoint::y);
+  const auto same = [](const NcPoint& a, const NcPoint& b) { return a.x == b.x && a.y == b.y; };
+  out.erase(std::unique(out.begin(), out.end(), same), out.end());
   return out;
 }
 

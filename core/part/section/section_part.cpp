@@ -12,6 +12,7 @@
 #include "core/part/cut_edges.hpp"
 #include "core/part/opening_order.hpp"
 #include "core/part/place.hpp"
+#include "core/part/section/section_tabs.hpp"
 #include "core/part/text_clearance.hpp"
 
 namespace tubecut::part {
@@ -30,9 +31,14 @@ Result<SectionEnd> cut_end(const SectionPartSpec& spec, bool finish) {
   SectionEnd out{.spec = asked.cut};
   out.spec.target.length = spec.length;
   TRY(out.own, under(joint::end_name(finish), bevel::section_table(spec.section, out.spec)));
-  if (!asked.welded) return out;
-  out.weld_length = welded_length(out.spec, out.own);
-  out.groove_volume = groove_volume(section::Wall(spec.section), out.spec, out.own);
+  const section::Wall wall(spec.section);
+  if (asked.welded) {
+    out.weld_length = welded_length(out.spec, out.own);
+    out.groove_volume = groove_volume(wall, out.spec, out.own);
+  }
+  const auto& tabs = finish ? spec.finish_tabs : spec.start_tabs;
+  if (!tabs.empty())
+    TRY(under(joint::end_name(finish), add_tabs({wall, out.spec, tabs, finish}, out)));
   if (stopped()) return fail({.code = ErrorCode::cancelled});
   return out;
 }
@@ -126,6 +132,13 @@ Lengths lengths(const SectionPartSpec& spec, const SectionPart& p) {
                end_volume(wall, p.start.spec, p.start.table);
   for (const auto& one : p.cutouts.instances) out.volume -= p.cutouts.mould_of(one).taken.volume;
   out.mass = out.volume * 1e-9 * spec.density;
+  // Next to a tab a row's torch cuts another row's edge, so that the rows alone do not tell the
+  // kerf.
+  const double dz = -lowest(p.start.own);
+  const double from = p.start.shoulder ? p.start.kerf_edge + dz : lowest_kerf(p.start.table);
+  const double to =
+      p.finish.shoulder ? spec.length - p.finish.kerf_edge + dz : highest_kerf(p.finish.table);
+  out.blank = to - from + spec.clamping + spec.facing;
   return out;
 }
 

@@ -31,6 +31,7 @@
 #include "core/joint/placement.hpp"
 #include "core/part/dimensions.hpp"
 #include "core/part/part.hpp"
+#include "core/part/section/end_tab.hpp"
 #include "core/section/section.hpp"
 
 namespace tubecut::part {
@@ -47,6 +48,7 @@ struct SectionPartSpec {
   section::Section section;
   double length = 0.0;  // between the work points
   EndSpec start, finish;
+  std::vector<EndTab> start_tabs = {}, finish_tabs = {};
   joint::MemberFrame start_frame = {};     // of the start, in the world; the identity if unknown
   std::vector<SectionMark> partners = {};  // in the start's frame
   std::string name = {};
@@ -71,13 +73,15 @@ struct FaceCut {
 /// One end of the finished part.
 struct SectionEnd {
   bevel::TableSpec spec;
-  bevel::SectionTable own;       // in the end's own frame
+  bevel::SectionTable own;                           // in the end's own frame, with its tabs
+  std::optional<bevel::SectionTable> shoulder = {};  // the same without tabs, if it has any
+  double kerf_edge = 0.0;        // of an end with tabs, in its own frame: z where the beams begin
   bevel::SectionTable table;     // in the part's frame; B > 0: outer edge further towards +z
   GirthPoint longest, shortest;  // of the outer edge: furthest from, and nearest to, the other end
   double weld_length = 0.0;      // of the root curve; 0 if nothing is welded
   double groove_volume = 0.0;    // between cut and partners within the wall, mm^3
   std::array<FaceCut, 4> faces;  // faces 1 to 4
-  std::array<double, 4> corners{};  // z at the middle of the corners 1 to 4
+  std::array<double, 4> corners{};  // z at their middles
 };
 
 /// The part along one face and along the corner that follows it, outside, mm.

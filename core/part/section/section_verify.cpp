@@ -9,6 +9,7 @@
 #include "core/base/stop.hpp"
 #include "core/part/section/section_part.hpp"
 #include "core/part/section/section_strips.hpp"
+#include "core/part/section/section_tabs.hpp"
 #include "core/part/square_holes.hpp"
 #include "core/part/text_clearance.hpp"
 #include "core/part/worst_checks.hpp"
@@ -143,10 +144,16 @@ double faces_off(const SectionPartSpec& spec, const SectionPart& p) {
 
 std::vector<Check> verify(const SectionPartSpec& spec, const SectionPart& part) {
   WorstChecks all;
-  all.see(bevel::verify(spec.section, part.start.spec, part.start.own), "");
-  all.see(bevel::verify(spec.section, part.finish.spec, part.finish.own), "");
-  auto out = all.take();
   const section::Wall wall(spec.section);
+  for (const bool finish : {false, true}) {
+    const auto& end = finish ? part.finish : part.start;
+    all.see(bevel::verify(spec.section, end.spec, end.shoulder ? *end.shoulder : end.own), "");
+    if (end.shoulder)
+      all.see(
+          verify_tabs({wall, end.spec, finish ? spec.finish_tabs : spec.start_tabs, finish}, end),
+          "");
+  }
+  auto out = all.take();
   const double start =
       spec.start_frame.rows.row(2).dot(part.frame.origin - spec.start_frame.origin);
   const double limit = kPlacedOff * std::max(1.0, 1e-3 * (wall.outer().reach() + spec.length));

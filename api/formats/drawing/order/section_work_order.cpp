@@ -102,11 +102,32 @@ class Faces {
     const auto normal = section::Curve::face_normal(face);
     const Eigen::Vector2d round(-normal.y(), normal.x());
     const double half = outer_.half_flat(face) + 0.5 * kPi * outer_.corner();
+    const double face_middle = outer_.on_face(face, 0.0);
+    std::vector<double> places = steps(finish, face_middle, half);
+    for (int i = 0; i <= kPlaces; ++i) places.push_back(half * (2.0 * i / kPlaces - 1.0));
+    std::ranges::sort(places);
     std::vector<DrawingPoint> out;
-    for (int i = 0; i <= kPlaces; ++i) {
-      const double s = outer_.on_face(face, 0.0) + half * (2.0 * i / kPlaces - 1.0);
+    for (const double place : places) {
+      const double s = face_middle + place;
       const double v = outer_.at(s).point.dot(round);
       out.push_back({x(edge(finish, s)), middle - v * scale_});
+    }
+    return out;
+  }
+
+  /// Returns places just before and after each step of an end's edge, such as a tab's side, from
+  /// the middle of a face.
+  [[nodiscard]] std::vector<double> steps(bool finish, double face_middle, double half) const {
+    constexpr double kBesideStep = 1e-6;  // mm
+    const auto& line = finish ? finish_ : start_;
+    std::vector<double> out;
+    for (std::size_t i = 0; i + 1 < line.phi.size(); ++i) {
+      if (line.phi[i] != line.phi[i + 1] || line.z[i] == line.z[i + 1]) continue;
+      const double off =
+          std::remainder(line.phi[i] / kTwoPi * outer_.girth() - face_middle, outer_.girth());
+      if (std::abs(off) >= half) continue;
+      out.push_back(off - kBesideStep);
+      out.push_back(off + kBesideStep);
     }
     return out;
   }
