@@ -3,6 +3,7 @@
 import copy
 import json
 import math
+import re
 
 import step_reader
 import step_volume
@@ -35,6 +36,30 @@ def steps(points, column):
     """[(girth, z, z)] where two rows lie at one place."""
     s, z = points["girth_mm"], points[column]
     return [(s[i], z[i], z[i + 1]) for i in range(len(s) - 1) if s[i] == s[i + 1] and z[i] != z[i + 1]]
+
+
+def cuts_of(program):
+    """{name: [{axis: value}]} of the moves with the torch lit."""
+    at, cuts, name, lit = dict.fromkeys("XYZA", 0.0), {}, "", False
+    for line in program.splitlines():
+        if line.startswith("(cut: "):
+            name = line[6:-1]
+        if line.startswith("M3"):
+            lit, cuts[name] = True, [dict(at)]
+        lit = lit and not line.startswith("M5")
+        if "(" in line:
+            continue
+        words = re.findall(r"([XYZA])(-?[0-9.]+)", line)
+        at.update({axis: float(value) for axis, value in words})
+        if words and lit:
+            cuts[name].append(dict(at))
+    return cuts
+
+
+def off_line(p, a, b):
+    d = b[0] - a[0], b[1] - a[1]
+    share = min(1.0, max(0.0, ((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / (d[0] ** 2 + d[1] ** 2)))
+    return math.hypot(p[0] - a[0] - share * d[0], p[1] - a[1] - share * d[1])
 
 
 def area_of(outline):
@@ -126,6 +151,23 @@ class TabSlots(FormatTest):
         self.assertAlmostEqual(step_volume.volume(solid) / result["lengths"]["volume_mm3"], 1, delta=2e-6)
         for wanted in ("format=gcode&torch=off&speed_mm_min=3000&pivot_length_mm=0", "format=pdf", "format=svg", "format=csv"):
             self.assertGreater(len(self.service.text("parts", body, wanted)), 1000, wanted)
+
+    def test_a_program_runs_half_a_kerf_off_the_tabs(self):
+        """On the faces with tabs the lit torch is nowhere nearer to the finished edge than half a kerf, and as near next to each side."""
+        options = "format=gcode&torch=on&speed_mm_min=3000&pivot_length_mm=0&lead_mm=3&pierce_height_mm=3&cut_height_mm=1.5&pierce_delay_s=0.3&clearance_mm=30"
+        cuts = cuts_of(self.service.text("parts", part(self.sign, "top rail")["request"], options).decode("ascii"))
+        for end, shoulder, out in (("start", 3, -1), ("finish", 1443, 1)):
+            tip = shoulder + 3 * out
+            edge = [(shoulder, -14), (shoulder, -10), (tip, -10), (tip, 10), (shoulder, 10), (shoulder, 14)]
+            for face in (0, 180):
+                moves = [(a, b) for a, b in zip(cuts[end], cuts[end][1:]) if all(abs((p["A"] - face + 180) % 360 - 180) < 1e-6 for p in (a, b))]
+                places = [tuple(a[axis] + share / 50 * (b[axis] - a[axis]) for axis in "XY") for a, b in moves for share in range(51)]
+                places = [p for p in places if abs(p[1]) < 13.9]
+                for p in places:
+                    self.assertGreater(min(off_line(p, a, b) for a, b in zip(edge, edge[1:])), KERF / 2 - 1e-4, (end, face, p))
+                    self.assertFalse(p[0] * out < shoulder * out or (abs(p[1]) < 10 and p[0] * out < tip * out), (end, face, p))
+                for middle in ((shoulder + 1.5 * out, -10), (shoulder + 1.5 * out, 10), (tip, 0)):
+                    self.assertLess(min(math.dist(p, middle) for p in places), KERF / 2 + 0.05, (end, face, middle))
 
     def test_a_part_by_itself_is_that_of_the_frame(self):
         made = part(self.sign, "top rail")
