@@ -222,7 +222,7 @@ export function checkRows(scope: Scope, cut: Cut, rows: Columns, zones: string[]
       const lost = anyJumps.some((jump) => Math.abs(Math.sin((jump - phi) / 2)) < 1e-9);
       const sides = (lost ? [phi - 1e-9, phi + 1e-9] : [phi]).map((side) => needs(side, face ? at('z_face_mm') : own));
       const need = sides.reduce((best, one) => (Math.abs(one - stated) < Math.abs(best - stated) ? one : best));
-      const loosely = (cut.partners.every(({convex}) => convex) ? 5e-9 : 1e-6) + grazing / RAD + 1e-11 / Math.max(Math.hypot(n[0], n[2]), 1e-9);
+      const loosely = (cut.partners.every(({convex}) => convex) ? 5e-9 : 5e-6) + grazing / RAD + 1e-11 / Math.max(Math.hypot(n[0], n[2]), 1e-9);
       scope.same('b_required', stated, need, lost ? 0.05 : loosely, 'deg', where);
     }
     if (has('gap_mm')) {

@@ -234,6 +234,10 @@ function checkHoleInWorld(
   const part = place && made.get(String(place.part));
   if (!frame || !part || joint.kind === 'set_on') return;
   const target = (part.request as Body).target as Numbers;
+  if (isSection(branch) || isSection(target as unknown as Body)) {
+    scope.not('joints', 'holes in or for tubes that are not round are not looked at');
+    return;
+  }
   const r = target.outer_diameter_mm / 2 - target.wall_mm;
   const [point, along] = axisOfMember(branch);
   const wanted = sizeOf(branch, know.sizes).outer_diameter_mm / 2 + (joint.gap_mm as number);

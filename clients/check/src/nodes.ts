@@ -5,7 +5,8 @@ import {axisOf, type Body, boxOf, isSection, plane, sectionOf, type Solid, sizeO
 import {add, across, cross, directionIn, dot, type Frame, inFrame, lineDistance, mul, norm, RAD, skew, sub, unit, type V3} from './space.js';
 import {checkProfile} from './profiles.js';
 import {boreOf, outsideOf} from './outline.js';
-import {checkSectionEnd, checkSectionProfile} from './section_ends.js';
+import {checkSectionProfile} from './section_curves.js';
+import {checkSectionEnd} from './section_ends.js';
 import {checkEnd, cutBy, type Knowledge, NO_SIZE} from './tables.js';
 
 export interface Statement {
