@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr int kTabDepths = 33;
 
-/// What a tab leaves on the wall's outside as it moves along its axis.
+/// The shadow of a tab on the wall's outside as it moves along its axis.
 struct TabShadow {
   Vector3d width, thickness;  // its sides
   Vector3d way;               // of the tab from the outside to the bore, along the wall

@@ -94,7 +94,7 @@ FaceSlot slot_on_face(const joint::Member& chord, const Piece& piece, const Entr
   return out;
 }
 
-/// Half of what a turned slot takes up around the tube, with round corners.
+/// Half of the room that a turned slot takes up around the tube, with round corners.
 double half_round(const FaceSlot& slot) {
   const auto turn = elementary::sincos(slot.turn);
   const double flat = 0.5 * (slot.round - 2.0 * slot.corner) * std::abs(turn.cos) +

@@ -43,7 +43,7 @@ void add_contour(const cutout::Chain& chain, Json::Object& out) {
   out.emplace_back("pieces", Json{std::move(pieces)});
 }
 
-/// Returns what a joint's tube is called on a plate: by its part, so that plates under equal posts
+/// Returns the name of a joint's tube on a plate: by its part, so that plates under equal posts
 /// are equal.
 const std::string& tube_of(const FrameJob& frame, std::size_t joint) {
   return name_of_part(frame, frame.part_of[frame.frame.joints[joint].branch]);

@@ -1,4 +1,4 @@
-/** Cut-outs: edges on their shapes, the beam beside them, areas and volumes, places and webs (docs/theory/cutouts.md). */
+/** Cut-outs: edges on their shapes, the beam next to them, areas and volumes, places and webs (docs/theory/cutouts.md). */
 import {girth, girthAt, type Outline, walk, wallAt} from './outline.js';
 import type {Scope} from './report.js';
 import type {Row} from './section_ends.js';
@@ -102,7 +102,7 @@ function placesOfRows(host: Host, points: {[name: string]: number[]}): Places {
   };
 }
 
-/** How a wall is cut, of what a request asks for. */
+/** How a wall is cut, by its request. */
 function wallOf(host: Host, request: Body, asked: Body): string {
   if (!isRound(host)) return 'flat';
   if (asked.wall === 'developed') return 'developed';
@@ -288,7 +288,7 @@ interface Cut {
   kerf: number;
 }
 
-/** Both edges on the shape's prism, or on the shape laid on the wall; the beam beside the wall; what is taken. */
+/** Both edges on the shape's prism, or on the shape laid on the wall; the beam next to the wall; the metal that is taken. */
 function checkShape(scope: Scope, host: Host, {chain, wall, far, kerf}: Cut, group: Body, plane: Plane, places: Places): void {
   const [R, r] = [host.outer.a, host.bore.a];
   const developed = (p: V3): Flat => {

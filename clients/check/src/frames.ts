@@ -30,7 +30,7 @@ export function checkFrame(scope: Scope, answer: Body, know: Knowledge): void {
     checkJoint(scope, request, joint, members, made, pieces, know);
     checkStated(scope, request, joint, members, made);
   }
-  if (result.plates) scope.not('plates', 'of plates only what their joints state is looked at');
+  if (result.plates) scope.not('plates', 'of plates only the statements of their joints are looked at');
   scope.covers('joints/*/gap_mm', 'joints/*/depth_mm').not('joints/*/fit_up', 'only that end and hole keep the gap in the world, within alike_within_mm');
 }
 

@@ -102,8 +102,8 @@ export function checkEvents(scope: Scope, cut: Cut, of: Outline, events: Event[]
   /** Where faces are flush, rounding decides whether a line along one of them meets it. */
   const heightNear = (by: number, s: number): [number, number] => {
     const exact = height(by, s);
-    const beside = [s - 1e-6, s + 1e-6].map((at) => height(by, at)).find((z) => z !== undefined);
-    return exact === undefined ? [beside ?? NaN, 1e-4] : [exact, 0];
+    const nearby = [s - 1e-6, s + 1e-6].map((at) => height(by, at)).find((z) => z !== undefined);
+    return exact === undefined ? [nearby ?? NaN, 1e-4] : [exact, 0];
   };
   const edges = seams(of);
   for (const event of mine) {

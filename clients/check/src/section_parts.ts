@@ -1,4 +1,4 @@
-/** Parts of tubes that are not round: both ends in one frame, and what follows from them (docs/theory/parts.md, docs/theory/sections.md). */
+/** Parts of tubes that are not round: both ends in one frame, and their figures (docs/theory/parts.md, docs/theory/sections.md). */
 import type {Columns} from './bevel.js';
 import {beamSpans, checkCutouts} from './cutouts.js';
 import {boreOf, checkSection, girth, outsideOf, walk} from './outline.js';
@@ -117,7 +117,7 @@ const heightOut = (whole: SectionCut, rows: Row[], s: number, side: Side): numbe
   return side === 'start' ? Math.max(...found) : Math.min(...found); // at a jump the part ends where it is shorter
 };
 
-/** What an end states of its outer edge, its weld and its faces. */
+/** The figures of an end: its outer edge, weld and faces. */
 function checkEndFigures(scope: Scope, whole: SectionCut, made: Body, side: Side, rows: Row[], tabbed: boolean): void {
   const {cut, outer} = whole;
   const edge = rows.map(({edges}) => edges[edges.length - 1][1]);
@@ -224,7 +224,7 @@ function checkFigures(
     ['blank_mm', blank],
     ['weld_mm', num(ends.start.weld_mm) + num(ends.finish.weld_mm)],
   ] as const) {
-    if (tabs && name === 'blank_mm') continue; // the beam steps beside the tabs
+    if (tabs && name === 'blank_mm') continue; // the beam steps next to the tabs
     scope.same('lengths', lengths[name], own, 5 * fine, 'mm', name);
     scope.covers(`lengths/${name}`);
   }

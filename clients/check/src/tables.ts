@@ -22,7 +22,7 @@ export interface Knowledge {
   machines: ReadonlyMap<string, Body>;
 }
 
-/** A section's outlines stand beside its cut. */
+/** Of a section, whose outlines are not part of its cut. */
 export const NO_SIZE: Size = {outer_diameter_mm: 0, wall_mm: 0};
 const num = (v: unknown, otherwise: number) => (typeof v === 'number' ? v : otherwise);
 

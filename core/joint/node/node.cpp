@@ -238,9 +238,9 @@ std::optional<Warning> no_cutter(const NodeSpec& spec, const MemberEnd& end, con
   const bool stated = around.applied.joints.contains(pair) && !around.applied.found.contains(pair);
   const bool found = !stated && std::holds_alternative<Within>(spec.connect);
   const auto at = place_of(end.member, end.end);
-  if (found && !cut.plane && seen.beside)
+  if (found && !cut.plane && seen.passes)
     return Warning{WarningCode::free_end, at,
-                   called(spec, end.member) + " meets no member here: it passes beside " +
+                   called(spec, end.member) + " meets no member here: it runs past " +
                        called(spec, cut.member)};
   if (cut.plane || !(seen.anywhere || seen.flush)) return std::nullopt;
   const double sine = sine_between(spec.members[end.member], spec.members[cut.member]);

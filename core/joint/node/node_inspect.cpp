@@ -97,11 +97,11 @@ class EndInspection {
         see(top->cutter, line, *at);
     }
   }
-  /// Finds the partners that pass beside the member or only touch its surfaces.
-  void see_beside(std::span<const PreparedCutter> cutters,
-                  const std::vector<std::vector<Generator>>& inside) {
+  /// Finds the partners that run past the member or only touch its surfaces.
+  void see_passing(std::span<const PreparedCutter> cutters,
+                   const std::vector<std::vector<Generator>>& inside) {
     for (std::size_t i = 0; i < cutters.size(); ++i)
-      seen_[i].beside = std::ranges::none_of(inside, [&](const auto& lines) {
+      seen_[i].passes = std::ranges::none_of(inside, [&](const auto& lines) {
         return std::ranges::any_of(
             lines, [&](const Generator& line) { return hit(cutters[i], line).has_value(); });
       });
@@ -298,7 +298,7 @@ std::vector<Presence> inspect(const Joints& joints, MemberEnd& end) {
   for (const auto& surface : surfaces_of(m))
     inside.push_back(surface.smaller ? lines_on(*surface.smaller)
                                      : lines_on(surface.reach - kSlightOverhang));
-  inspection.see_beside(cutters, inside);
+  inspection.see_passing(cutters, inside);
   return inspection.take();
 }
 

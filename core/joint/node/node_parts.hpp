@@ -142,7 +142,7 @@ using Seat = std::variant<TubeCutter, PlaneCutter, RectangularTubeCutter>;
 /// Where a cutter holds an end.
 struct Presence {
   bool anywhere = false;   // true if it cuts some generator
-  bool beside = false;     // true if it meets none that runs a little inside the surface
+  bool passes = false;     // true if it meets none that runs a little inside the surface
   bool flush = false;      // true if, beyond its own ends, it is flush with another that cuts
   bool there = false;      // true if it cuts one within its own ends
   bool consumes = false;   // true if it cuts one beyond the target's other end

@@ -103,7 +103,7 @@ class TabRows {
     double share = 0.0, s = 0.0;
     bool before_first = false;  // it lies before the first row, in the last gap
   };
-  /// What ends at a place, just before it or just after it: the strip, or none.
+  /// The strip that ends at a place, just before it or just after it, or none.
   using Level = std::optional<std::size_t>;
 
   [[nodiscard]] double turned(double s) const {
