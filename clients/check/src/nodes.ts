@@ -31,7 +31,7 @@ export function endOf(member: Body, end: string): [V3, V3] {
   return [v3(member[from]), unit(sub(v3(member[to]), v3(member[from])))];
 }
 
-/** What either of two members states of their joint. */
+/** The statement of either of two members of their joint. */
 export function stated(one: Body, other: Body): Statement | undefined {
   const of = (member: Body, partner: Body) => ((member.joints ?? []) as Body[]).find((joint) => joint.member === partner.id);
   return (of(one, other) ?? of(other, one)) as unknown as Statement | undefined;
@@ -51,7 +51,7 @@ export function mitrePlane(a: [V3, V3], b: [V3, V3]): [V3, V3] {
 }
 
 /** The member as a partner in the frame, by its joint with the target. */
-/** What a request keeps a cut off every partner, mm. */
+/** How far a request keeps a cut off every partner, mm. */
 interface Kept {
   coating: number;
   root: number;

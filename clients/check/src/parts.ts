@@ -153,7 +153,7 @@ function bodyOf(request: Body): {target: Body; axis: [V3, V3]; length: number} {
   return {target, axis: axisOfMember(target), length: norm(sub(v3(target.end_mm), v3(target.start_mm)))};
 }
 
-/** What an end states of its outer edge and its weld. */
+/** The statements of an end of its outer edge and its weld. */
 function checkSides(scope: Scope, cut: Cut, made: Body, side: Side, R: number): void {
   const points = made.points as unknown as {[name: string]: number[]};
   const [phi, z] = [points.phi_deg, points.z_outer_mm];
