@@ -20,6 +20,10 @@ SOUND = {
 
 # Additions to the sound tree, and the tool's expected messages.
 BAD = {
+    "two types of one name": (
+        {"api/x.hpp": "#pragma once\nnamespace tubecut::api {\nstruct Column {\n};\n}  // namespace tubecut::api\n",
+         "api/wire/y.hpp": "#pragma once\nnamespace tubecut::api {\nclass Column final {\n};\n}  // namespace tubecut::api\n"},
+        "tubecut::api::Column is another type in"),
     "core looks at api": ({"core/x.cpp": '#include "api/api.hpp"\n'}, "core may not look there"),
     "core looks at server": ({"core/x.cpp": '#include "server/app.hpp"\n'}, "core may not look there"),
     "core in brackets": ({"core/x.cpp": "#include <api/api.hpp>\n"}, "core may not look there"),

@@ -189,8 +189,8 @@ void draw_box(Canvas& canvas, double y, double height) {
                    kBox);
 }
 
-void draw_head(OrderSheets& sheets, const std::string& title, const std::vector<Column>& columns,
-               double with) {
+void draw_head(OrderSheets& sheets, const std::string& title,
+               const std::vector<HeadColumn>& columns, double with) {
   constexpr double kTall = 10.0;
   sheets.keep_together(kTall + with);
   const double top = sheets.take(kTall);

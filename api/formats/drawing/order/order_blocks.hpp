@@ -38,13 +38,13 @@ void draw_partners(OrderSheets& sheets, const EndPartners& start, const EndPartn
 void draw_sign_off(OrderSheets& sheets, const joint::Sampling& sampling, const Caption& caption);
 
 /// A table's head and rows, each with a box to write in at its right end.
-struct Column {
+struct HeadColumn {
   double at;
   std::string head;
 };
 /// Draws the head of a table of which `with` mm stay on one sheet with it.
-void draw_head(OrderSheets& sheets, const std::string& title, const std::vector<Column>& columns,
-               double with);
+void draw_head(OrderSheets& sheets, const std::string& title,
+               const std::vector<HeadColumn>& columns, double with);
 void draw_row_line(Canvas& canvas, double y);
 void draw_box(Canvas& canvas, double y, double height);
 
