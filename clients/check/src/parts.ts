@@ -280,6 +280,16 @@ function at(points: {[name: string]: number[]}, name: string, deg: number): numb
   return b > a ? z[i] + ((turn - a) / (b - a)) * (next - z[i]) : z[i];
 }
 
+/** The lengths of a part by their names. */
+export const ownLengths = (ends: {[side in Side]: Body}, length: number, tip: number, throat: number, blank: number) =>
+  [
+    ['work_point_mm', length],
+    ['long_mm', tip],
+    ['short_mm', throat],
+    ['blank_mm', blank],
+    ['weld_mm', num(ends.start.weld_mm) + num(ends.finish.weld_mm)],
+  ] as const;
+
 function checkFigures(
   scope: Scope,
   request: Body,
@@ -306,13 +316,7 @@ function checkFigures(
   const spare = (request.allowances ?? {}) as Numbers;
   scope.same('datum_z', Math.min(...both(s)), 0, fine, 'mm');
   const blank = Math.max(...border(e)) - Math.min(...border(s)) + num(spare.clamping_mm) + num(spare.facing_mm);
-  for (const [name, own] of [
-    ['work_point_mm', length],
-    ['long_mm', tip],
-    ['short_mm', throat],
-    ['blank_mm', blank],
-    ['weld_mm', num(ends.start.weld_mm) + num(ends.finish.weld_mm)],
-  ] as const) {
+  for (const [name, own] of ownLengths(ends, length, tip, throat, blank)) {
     scope.same('lengths', lengths[name], own, 3 * fine, 'mm', name);
     scope.covers(`lengths/${name}`);
   }

@@ -4,6 +4,7 @@ import {girth, type Outline, seams, walk} from './outline.js';
 import type {Scope} from './report.js';
 import type {Body, Solid} from './solids.js';
 import {integral, norm, RAD, root, sub} from './space.js';
+import {checkSides} from './wall.js';
 
 /** A cut, of which `inner` and `outer` say nothing, and the outlines that it goes round. */
 export interface SectionCut {
@@ -122,15 +123,14 @@ export function checkEvents(scope: Scope, cut: Cut, of: Outline, events: Event[]
       if (Number.isNaN(z)) continue; // along a face of both partners that is flush with the tube's own
       scope.same('junction_z', event.z_from_mm, z, 3e-10 + 1e-11 * Math.abs(event.z_to_mm) + loose, 'mm', where);
     } else {
-      for (const [z, by] of [
-        [event.z_from_mm, event.from],
-        [event.z_to_mm, event.to],
-      ] as const) {
-        const partner = cut.partners[by];
-        const touching = partner ? root((t) => partner.normal([...place(s), t])[2], z - 0.5, z + 0.5) : NaN;
-        const heights = [height(by, s) ?? NaN, touching, event.kind === 'kink' ? z : NaN].filter((found) => !Number.isNaN(found));
-        scope.most('event_z', heights.length ? Math.min(...heights.map((found) => Math.abs(found - z))) : NaN, 3e-5, 'mm', where);
-      }
+      checkSides(
+        scope,
+        cut,
+        event,
+        (by) => height(by, s),
+        (z) => [...place(s), z],
+        where,
+      );
     }
   }
   const count = 1440;

@@ -2,7 +2,7 @@
 import type {Columns} from './bevel.js';
 import {beamSpans, checkCutouts} from './cutouts.js';
 import {boreOf, checkSection, girth, outsideOf, walk} from './outline.js';
-import {checkClocking, cutOfEnd} from './parts.js';
+import {checkClocking, cutOfEnd, ownLengths} from './parts.js';
 import type {Scope} from './report.js';
 import type {SectionCut} from './section_curves.js';
 import {between, checkSectionEnd, heightAt, type Row, rowsOfSection} from './section_ends.js';
@@ -216,14 +216,8 @@ function checkFigures(
   const blank = Math.max(...border('finish')) - Math.min(...border('start')) + num(spare.clamping_mm) + num(spare.facing_mm);
   const ends = result.ends as {[side in Side]: Body};
   scope.same('datum_z', Math.min(...s), 0, fine, 'mm');
-  const tabs = [ends.start, ends.finish].some((_, i) => list(((request.ends as Body)[i ? 'finish' : 'start'] as Body).end_tabs).length > 0);
-  for (const [name, own] of [
-    ['work_point_mm', length],
-    ['long_mm', tip],
-    ['short_mm', throat],
-    ['blank_mm', blank],
-    ['weld_mm', num(ends.start.weld_mm) + num(ends.finish.weld_mm)],
-  ] as const) {
+  const tabs = (['start', 'finish'] as const).some((side) => list(((request.ends as Body)[side] as Body).end_tabs).length > 0);
+  for (const [name, own] of ownLengths(ends, length, tip, throat, blank)) {
     if (tabs && name === 'blank_mm') continue; // the beam steps next to the tabs
     scope.same('lengths', lengths[name], own, 5 * fine, 'mm', name);
     scope.covers(`lengths/${name}`);

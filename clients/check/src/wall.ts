@@ -2,7 +2,7 @@
 import {type Columns, type Cut, anglesOf, envelope, local, required, rootRadius} from './bevel.js';
 import type {Scope} from './report.js';
 import type {Body} from './solids.js';
-import {highest, integral, onTube, RAD, root} from './space.js';
+import {highest, integral, onTube, RAD, root, type V3} from './space.js';
 
 export interface Event {
   kind: string;
@@ -193,6 +193,26 @@ export function checkTorchLine(scope: Scope, cut: Cut, rows: Row[], stated: Torc
   scope.covers('torch_line/gouge_mm', 'torch_line/left_mm');
 }
 
+/** Where a partner is lost or bent: on both sides the curve has a partner's height, or ends where a lost one's surface runs along the tube. */
+export function checkSides(
+  scope: Scope,
+  cut: Cut,
+  event: Pick<Event, 'kind' | 'z_from_mm' | 'z_to_mm' | 'from' | 'to'>,
+  height: (by: number) => number | undefined,
+  placeAt: (z: number) => V3,
+  where: string,
+): void {
+  for (const [z, by] of [
+    [event.z_from_mm, event.from],
+    [event.z_to_mm, event.to],
+  ] as const) {
+    const partner = cut.partners[by];
+    const touching = partner ? root((t) => partner.normal(placeAt(t))[2], z - 0.5, z + 0.5) : NaN;
+    const heights = [height(by) ?? NaN, touching, event.kind === 'kink' ? z : NaN].filter((found) => !Number.isNaN(found));
+    scope.most('event_z', heights.length ? Math.min(...heights.map((found) => Math.abs(found - z))) : NaN, 3e-5, 'mm', where);
+  }
+}
+
 /** Junctions where two partners are equally high, jumps where one is lost; between them one partner stays the highest. */
 export function checkEvents(scope: Scope, cut: Cut, events: Event[], surface: 'inner' | 'outer', whole: boolean): void {
   const rho = surface === 'inner' ? cut.inner : cut.outer;
@@ -208,15 +228,14 @@ export function checkEvents(scope: Scope, cut: Cut, events: Event[], surface: 'i
       scope.same('junction_z', event.z_from_mm, event.z_to_mm, 3e-10 + 3e-13 * Math.abs(event.z_to_mm), 'mm', where);
       scope.same('junction_z', event.z_from_mm, height(event.from, phi) ?? NaN, 1e-9 + 1e-11 * Math.abs(event.z_to_mm), 'mm', where);
     } else {
-      for (const [z, by] of [
-        [event.z_from_mm, event.from],
-        [event.z_to_mm, event.to],
-      ] as const) {
-        const partner = cut.partners[by];
-        const touching = partner ? root((t) => partner.normal(onTube(rho, phi, t))[2], z - 0.5, z + 0.5) : NaN; // where a lost partner's surface runs along the generator
-        const heights = [height(by, phi) ?? NaN, touching, event.kind === 'kink' ? z : NaN].filter((found) => !Number.isNaN(found));
-        scope.most('event_z', heights.length ? Math.min(...heights.map((found) => Math.abs(found - z))) : NaN, 3e-5, 'mm', where);
-      }
+      checkSides(
+        scope,
+        cut,
+        event,
+        (by) => height(by, phi),
+        (z) => onTube(rho, phi, z),
+        where,
+      );
     }
   }
   if (!whole) return;

@@ -88,7 +88,7 @@ double SectionSurface::beam_reach(double kerf) const {
 }
 
 double SectionSurface::z(const Line& line, double depth) const {
-  // A wall that is thinner than the depth by its rounding ends at the bore.
+  // Because rounding may make the wall thinner than the depth of its own bore.
   const double from_bore = std::max(0.0, line.wall - depth);  // outwards
   if (from_bore >= land())
     return math::mixed(line.face, line.outer, (from_bore - land()) / (line.wall - land()));
