@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "core/base/angle.hpp"
 #include "tests/support/call.hpp"
@@ -180,6 +184,57 @@ TEST(FramePlates, AllMistakesAreToldAtOnce) {
   const auto answer = post(kFrames, body);
   EXPECT_NE(error_at(answer, "/plates/0/cutouts/0/shape/width_mm"), nullptr) << answer.outcome.body;
   EXPECT_NE(error_at(answer, "/joints/1"), nullptr) << answer.outcome.body;
+}
+
+/// A frame turned in plan and moved, its places with three decimals, and its lists the other way
+/// round: as a model comes from a CAD system.
+Json moved(Json frame, double turn) {
+  const auto vector = [&](const std::vector<double>& v, bool place) {
+    const double at[] = {std::cos(turn) * v[0] - std::sin(turn) * v[1] + (place ? 4016.8364 : 0.0),
+                         std::sin(turn) * v[0] + std::cos(turn) * v[1] - (place ? 1247.6312 : 0.0),
+                         v[2] + (place ? 310.5 : 0.0)};
+    Json::Array out;
+    for (const double one : at) out.emplace_back(place ? std::round(one * 1e3) / 1e3 : one);
+    return Json{std::move(out)};
+  };
+  for (const auto* list : {"members", "plates"}) {
+    if (frame.find(list) == nullptr) continue;
+    const auto count = frame.find(list)->as<Json::Array>()->size();
+    for (std::size_t i = 0; i < count; ++i)
+      for (const auto* field : {"start_mm", "end_mm", "point_mm", "normal", "up"}) {
+        const auto own = std::string(list) + "/" + std::to_string(i);
+        if (at(frame, own).find(field) == nullptr) continue;
+        const auto path = own + "/" + field;
+        frame = with(frame, path, vector(numbers(frame, path), path.ends_with("_mm")));
+      }
+    auto rows = *frame.find(list)->as<Json::Array>();
+    std::ranges::reverse(rows);
+    frame = with(frame, list, Json{std::move(rows)});
+  }
+  return frame;
+}
+
+TEST(FramePlates, ATurnedModelInAnotherOrderHasTheSamePartsAndPlates) {
+  for (const auto* file :
+       {"frames/post-on-base-plate.json", "frames/sign-frame-with-tab-and-slot.json"}) {
+    const auto plain = post(kFrames, example(file)),
+               turned = post(kFrames, moved(example(file), 0.39));
+    ASSERT_FALSE(turned.outcome.error) << turned.outcome.body.substr(0, 800);
+    EXPECT_EQ(text(turned.body, "verdict/status"), "ok") << file;
+    for (const auto* total : {"made", "parts", "mass_kg", "blank_mm"})
+      EXPECT_NEAR(number(turned.body, std::string("result/totals/") + total),
+                  number(plain.body, std::string("result/totals/") + total), 0.05)
+          << file << " " << total;
+    const auto* plates = at(plain.body, "result").find("plates");
+    if (plates == nullptr) continue;
+    std::multiset<double> areas, others;
+    for (const auto& one : *plates->as<Json::Array>()) areas.insert(number(one, "area_mm2"));
+    for (const auto& one : *at(turned.body, "result/plates").as<Json::Array>())
+      others.insert(number(one, "area_mm2"));
+    ASSERT_EQ(areas.size(), others.size());
+    for (auto a = areas.begin(), b = others.begin(); a != areas.end(); ++a, ++b)
+      EXPECT_NEAR(*a, *b, 1e-3 * *a);
+  }
 }
 
 }  // namespace tubecut::testing::frame_plates
