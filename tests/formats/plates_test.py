@@ -1,4 +1,4 @@
-"""The files of a frame's plates: DXF read by ezdxf, NC1 line by line, both against the answer."""
+"""The files of a frame's plates: DXF read by ezdxf, NC1 line by line, STEP by a reader of its own, all against the answer."""
 
 import io
 import json
@@ -8,7 +8,10 @@ import tempfile
 import zipfile
 
 import ezdxf
+import numpy as np
 
+import step_reader
+import step_volume
 from service import FormatTest, examples, main
 
 QUERY = "format=zip&files=dxf,nc1,work-order"
@@ -167,10 +170,32 @@ class Plates(FormatTest):
         rows = [line for line in text.splitlines() if line.startswith(("BP1", "CP1", "W1"))]
         self.assertEqual([row.split(",")[1] for row in rows], ["2", "2", "1"])
 
-    def test_the_assembly_is_refused_by_name(self):
-        status, _, problem = self.service.ask("frames", examples("frames")["post-on-base-plate"], "format=step")
-        self.assertEqual(status, 422)
-        self.assertIn("BP1", problem.decode())
+    def test_the_assembly_has_a_solid_of_each_plate_at_its_place(self):
+        for body in (examples("frames")["post-on-base-plate"], leaning()):
+            rows = {name: row for row in self.service.answer("frames", body)["result"]["plates"] for name in row["ids"]}
+            file = step_reader.File(self.service.text("frames", body, "format=step").decode("ascii"))
+            used = {use[0]: use[1:] for use in step_reader.assembly(file)}
+            self.assertEqual(set(used), {one["id"] for one in body["members"] + body["plates"]})
+            for plate in body["plates"]:
+                row, (product, brep, origin, axes) = rows[plate["id"]], used[plate["id"]]
+                normal = np.array(plate["normal"]) / np.linalg.norm(plate["normal"])
+                self.assertEqual(product, row["plate"])
+                self.assertLess(np.abs(origin - plate["point_mm"]).max(), 1e-5)
+                self.assertLess(np.abs(axes[2] - normal).max(), 1e-11)
+                self.assertGreater(axes[1] @ plate["up"], 0)
+                self.assertLess(abs(axes[0] @ plate["up"]), 1e-9)
+                solid = step_reader.Solid(file, brep)
+                self.assertEqual(step_reader.faults(solid, len(row["holes"])), [])
+                self.assertAlmostEqual(step_volume.volume(solid) / (row["area_mm2"] * row["thickness_mm"]), 1, delta=1e-6)
+
+    def test_a_plates_own_step_is_in_the_packet(self):
+        body = leaning()
+        with zipfile.ZipFile(io.BytesIO(self.service.text("frames", body, "format=zip&files=step"))) as opened:
+            [text] = [opened.read(name) for name in opened.namelist() if name.startswith("T_") and name.endswith(".step")]
+        [row] = self.service.answer("frames", body)["result"]["plates"]
+        solid = step_reader.Solid(step_reader.File(text.decode("ascii")))
+        self.assertEqual(step_reader.faults(solid, 1), [])
+        self.assertEqual({face["name"] for face in solid.faces}, {"face", "back", "outline", "hole " + row["holes"][0]["part"]})
 
 
 if __name__ == "__main__":

@@ -416,7 +416,7 @@ def curve_points(edge, forward=True):
         out = origin + radius * (np.cos(turn) * x + np.sin(turn) * y)
     else:
         origin, radius = about
-        first, last = (np.arctan2(p[1], p[0]) for p in (a, b))
+        first, last = (np.arctan2(*(p - origin)[1::-1]) for p in (a, b))
         turn = np.linspace(first, last if last > first + 1e-9 else last + 2 * np.pi, 33)
         out = origin + np.stack([radius * np.cos(turn), radius * np.sin(turn), 0 * turn], axis=1)
     return out if forward else out[::-1]
@@ -537,6 +537,7 @@ def signed_area(face, solid):
 def faults(solid, genus):
     """What is wrong with a solid; empty for one that is whole."""
     out, uses = [], {}
+    about_axis = {f["surface"][2] for f in solid.faces if f["surface"][0] == "cylinder" and not np.any(f["surface"][1])}
     for i, face in enumerate(solid.faces):
         for loop in face["loops"]:
             for (edge, forward), (after, next_forward) in zip(loop, loop[1:] + loop[:1]):
@@ -548,8 +549,8 @@ def faults(solid, genus):
         if (area > 0) != face["same"]:
             out.append(f"face {i} {face['name']}: its loop runs against its normal")
         kind = face["surface"][0]
-        about_z = kind == "cylinder" and not np.any(face["surface"][1])
-        if about_z and face["same"] != (face["surface"][2] == max(f["surface"][2] for f in solid.faces if f["surface"][0] == kind)):
+        of_tube = kind == "cylinder" and not np.any(face["surface"][1]) and len(about_axis) > 1  # a plate may have a bore there
+        if of_tube and face["same"] != (face["surface"][2] == max(about_axis)):
             out.append(f"face {i}: a wall that looks inwards")
     for edge, about in solid.edges.items():
         if sorted(forward for _, forward in uses.get(edge, [])) != [False, True]:

@@ -11,19 +11,26 @@ def along_curve(edge, forward):
     if kind == "spline":
         at, slope = about[0].at(about[0].within(PLACES))
         ways = slope * (np.diff(about[0].knots)[:, None] * WEIGHTS[None]).ravel()[:, None]
+    elif kind in ("arc", "circle"):
+        if kind == "arc":
+            origin, _, x, y, radius, first, last = arc_of(edge)
+        else:
+            (origin, radius), (x, y, _) = about, np.eye(3)
+            first, last = (np.arctan2(*(p - origin)[1::-1]) for p in (a, b))
+            last += 2 * np.pi * (last < first + 1e-9)
+        turn = (first + (last - first) * (np.arange(8)[:, None] + PLACES) / 8).ravel()[:, None]
+        at = origin + radius * (np.cos(turn) * x + np.sin(turn) * y)
+        ways = radius * (np.cos(turn) * y - np.sin(turn) * x) * np.tile(WEIGHTS, 8)[:, None] * (last - first) / 8
     else:
         at, ways = a + PLACES[:, None] * (b - a), WEIGHTS[:, None] * (b - a)
     return at, ways if forward else -ways
 
 
 def under_plane(face, solid):
-    """Integral of z over a plane's shadow, by Green's theorem along its loops; a circle counts whole."""
+    """Integral of z over a plane's shadow, by Green's theorem along its loops, which run as seen from outside."""
     point, normal = face["surface"][1:]
     if abs(normal[2]) < 1e-9:
         return 0.0
-    if solid.edges[face["loops"][0][0][0]]["curve"][0] == "circle":
-        radii = [solid.edges[loop[0][0]]["curve"][2] for loop in face["loops"]]
-        return np.sign(normal[2]) * point[2] * np.pi * (radii[0] ** 2 - sum(radius**2 for radius in radii[1:]))
     b, c = -normal[:2] / normal[2]
     total, a = 0.0, point[2] - b * point[0] - c * point[1]
     for loop in face["loops"]:
@@ -74,8 +81,7 @@ def volume(solid):
         kind, *about = face["surface"]
         sign = 1.0 if face["same"] else -1.0
         if kind == "plane":
-            # Its loops run as seen from outside, so those of a plane that looks down count against z already.
-            total += under_plane(face, solid) * (sign if solid.edges[face["loops"][0][0][0]]["curve"][0] == "circle" else 1.0)
+            total += under_plane(face, solid)
         if kind == "bore":
             total += sign * under_bore(face, solid)
         if kind == "cone":

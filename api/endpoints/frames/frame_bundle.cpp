@@ -208,14 +208,15 @@ Folder write_plate_folder(const FrameJob& frame, const PlatePart& part, const Ca
   out.files.push_back(bundle.add(stem + "/" + stem + ".plate.json", "plate", kJsonMedia,
                                  dump(Json{part.geometry})));
   for (const auto& file : of_frame.options.files) {
-    if (!has_plate_file(file.name)) {
+    const auto* of_plate = find_plate_file(file.name);
+    if (of_plate == nullptr) {
       out.left_out.push_back(
           {file.name,
-           {.code = ErrorCode::not_acceptable, .detail = "A plate has only dxf and nc1."}});
+           {.code = ErrorCode::not_acceptable, .detail = "A plate has only dxf, nc1 and step."}});
       continue;
     }
     try {
-      const auto text = plate_file(frame, part, file.name, caption);
+      const auto text = of_plate->print(drawing_of(frame, part), caption);
       out.files.push_back(bundle.add(stem + "/" + stem + std::string(file.ending), file.name,
                                      format_of(file).media, text));
     } catch (const Unspellable& met) {

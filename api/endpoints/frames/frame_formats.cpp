@@ -6,6 +6,7 @@
 
 #include "api/endpoints/frames/plate_answer.hpp"
 #include "api/formats/csv.hpp"
+#include "api/formats/step/plate_solid.hpp"
 #include "api/formats/step/section_solid.hpp"
 #include "api/formats/step/step.hpp"
 #include "api/stop.hpp"
@@ -71,12 +72,9 @@ std::string cut_list_csv(const FrameJob& frame, const MadeParts& made, const Cap
 }
 
 std::string frame_step(const FrameJob& frame, const MadeParts& made, const Caption& caption) {
-  if (!frame.plate_parts.empty())
-    throw UnfitOption{"format", "no solids of plates are written yet: plate " +
-                                    name_of_plate(frame, frame.plate_parts.front()) +
-                                    "; use format=zip for the files of parts and plates"};
   double thinnest = limit::wall_max_mm;
   for (const auto& m : frame.spec.members) thinnest = std::min(thinnest, m.wall);
+  for (const auto& p : frame.spec.plates) thinnest = std::min(thinnest, p.thickness);
   auto of_parts = caption;  // they are called by their own names
   std::erase_if(of_parts.reference, [](const auto& one) { return one.first == "part"; });
   StepFile file(thinnest, caption);
@@ -89,6 +87,15 @@ std::string frame_step(const FrameJob& frame, const MadeParts& made, const Capti
     if (!made[part].made) continue;
     const auto [origin, rows] = place_of(frame, *made[part].made, i);
     placed.push_back({shapes[part], frame.spec.members[i].name, origin, rows});
+  }
+  for (const auto& part : frame.plate_parts) {
+    ask();
+    const auto drawing = drawing_of(frame, part);
+    const auto shape = file.solid(plate_solid(drawing), product_of(drawing, of_parts));
+    for (const auto one : part.plates) {
+      const auto& at = frame.frame.plates[one].plate.frame;
+      placed.push_back({shape, frame.spec.plates[one].name, at.origin, at.rows});
+    }
   }
   Product whole{.id = caption.input_sha256.substr(0, 16), .name = "frame", .revision = {}};
   for (const auto& [key, text] : caption.reference) {

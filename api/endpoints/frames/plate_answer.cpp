@@ -1,6 +1,7 @@
 #include "api/endpoints/frames/plate_answer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -152,24 +153,28 @@ void write_plates(const FrameJob& frame, Writer& w) {
   });
 }
 
-bool has_plate_file(std::string_view format) { return format == "dxf" || format == "nc1"; }
-
-std::string plate_file(const FrameJob& frame, const PlatePart& part, std::string_view format,
-                       const Caption& caption) {
+PlateDrawing drawing_of(const FrameJob& frame, const PlatePart& part) {
   const auto index = part.plates.front();
   const auto& of = frame.frame.plates[index];
-  PlateDrawing drawing{.name = name_of_plate(frame, part),
-                       .thickness = frame.spec.plates[index].thickness,
-                       .density = density_of(frame),
-                       .mass = mass_of_plate(frame, index),
-                       .outline = of.plate.outline,
-                       .holes = {},
-                       .marks = {}};
+  PlateDrawing out{.name = name_of_plate(frame, part),
+                   .thickness = frame.spec.plates[index].thickness,
+                   .density = density_of(frame),
+                   .mass = mass_of_plate(frame, index),
+                   .outline = of.plate.outline,
+                   .holes = {},
+                   .marks = {}};
   for (const auto& hole : of.plate.holes)
-    drawing.holes.push_back({hole_name(frame, of, hole), hole.chain, hole.diameter, hole.centre});
+    out.holes.push_back({hole_name(frame, of, hole), hole.chain, hole.diameter, hole.centre});
   for (const auto& stood : of.stood)
-    drawing.marks.push_back({tube_of(frame, stood.joint), stood.outline, stood.front});
-  return format == "dxf" ? print_plate_dxf(drawing, caption) : print_plate_dstv(drawing, caption);
+    out.marks.push_back({tube_of(frame, stood.joint), stood.outline, stood.front});
+  return out;
+}
+
+const PlateFile* find_plate_file(std::string_view format) {
+  static constexpr std::array<PlateFile, 3> kFiles{
+      {{"dxf", print_plate_dxf}, {"nc1", print_plate_dstv}, {"step", print_plate_step}}};
+  const auto* found = std::ranges::find(kFiles, format, &PlateFile::format);
+  return found == kFiles.end() ? nullptr : found;
 }
 
 }  // namespace tubecut::api

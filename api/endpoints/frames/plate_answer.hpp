@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "api/endpoints/frames/frame_answer.hpp"
+#include "api/formats/dxf/plate_dxf.hpp"
 #include "api/wire/format.hpp"
 #include "api/wire/writer.hpp"
 
@@ -21,11 +22,16 @@ void write_plates(const FrameJob& frame, Writer& w);
 /// Returns the mass of one plate, kg.
 [[nodiscard]] double mass_of_plate(const FrameJob& frame, std::size_t plate);
 
-/// Returns the texts of a drawing of one kind of plate; `caption` has its reference.
-[[nodiscard]] std::string plate_file(const FrameJob& frame, const PlatePart& part,
-                                     std::string_view format, const Caption& caption);
-/// Returns whether a plate has this file.
-[[nodiscard]] bool has_plate_file(std::string_view format);
+/// Returns one kind of plate as its files draw it.
+[[nodiscard]] PlateDrawing drawing_of(const FrameJob& frame, const PlatePart& part);
+
+/// A file of a plate; `caption` has its reference.
+struct PlateFile {
+  std::string_view format;
+  std::string (*print)(const PlateDrawing& plate, const Caption& caption);
+};
+/// Returns nullptr if a plate has no such file.
+[[nodiscard]] const PlateFile* find_plate_file(std::string_view format);
 
 /// Writes the columns of the cut list of a plate, as cut_list_row.
 template <class Row>
