@@ -227,6 +227,13 @@ export type Partner =
   | {kind: 'box'; point: Vector; direction: Vector; up: Vector; width: number; height: number; corner: number; half: number; tone: number}
   | {kind: 'elbow'; point: Vector; direction: Vector; inwards: Vector; radius: number; bend: number; angle: number; half: [number, number]; tone: number}
   | {kind: 'plane'; point: Vector; normal: Vector; half: number; tone: number};
+/** A flat plate: contours in its own plane, the metal below it. */
+export interface Plate {
+  frame: Frame;
+  thickness: number;
+  outline: [number, number][];
+  holes: [number, number][][];
+}
 export interface Ribbon {
   a: Vector[];
   b: Vector[];
@@ -246,6 +253,7 @@ export interface Solid {
   tubes: CutTube[];
   holed?: HoledTube[];
   assembly?: Assembly;
+  plates?: Plate[];
   partners: Partner[];
   ribbons?: Ribbon[];
   closed?: true; // the ribbons are the whole surface of a body

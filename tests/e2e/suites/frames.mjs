@@ -386,4 +386,23 @@ export const checks = {
     clean(page);
     await page.context().close();
   },
+
+  'the plates of a frame are drawn, listed and lead to their members': async ({browser, origin, service}) => {
+    const body = example('post-on-base-plate');
+    const {result} = await answerTo(service, body);
+    const page = await frame(browser, origin, 'post-on-base-plate');
+    const drawn = () => page.evaluate(() => document.querySelector('.canvas canvas').dataset.plates);
+    assert.equal(await drawn(), String(body.plates.length));
+    await page.getByRole('tab', {name: `Plates (${result.plates.length})`}).click();
+    const first = body.members.length + result.joints.length + result.cut_list.length;
+    await choose(page, first);
+    assert.equal(await figure(page, 'Thickness'), `${result.plates[0].thickness_mm} mm`);
+    assert.ok((await lit(page)).count > 100, 'the members on it are lit');
+    const leads = await page.locator('.facts button').allInnerTexts();
+    assert.deepEqual(leads.filter((name) => /^P/.test(name)), ['P1', 'P2']);
+    await page.getByRole('tab', {name: 'Table'}).click();
+    assert.match(await page.locator('body').innerText(), /250 × 250 × 20/);
+    clean(page);
+    await page.context().close();
+  },
 };

@@ -7,6 +7,7 @@ import {choice, sentences, term, withUnit} from '../words';
 import type {Context} from './context';
 import {figures, text} from './facts';
 import {itemsOf, lightsOf, size, standings, told, toneOf, type Told} from './frame_items';
+import {platesIn, plateTable} from './frame_plates';
 import {add, bounds, dot, frame, partner, placed, squareEnd, tube, unitVector, vector, type Sizes} from './geometry';
 import {finished} from './part';
 import {openingsOf} from './section_part';
@@ -20,10 +21,12 @@ export async function wholeFrame(_: Row, answer: Answer, context: Context): Prom
   const {result, request} = answer;
   const totals = result['totals'] as Row;
   const notCut = rowsOf(result['not_cut']);
+  const plates = rowsOf(request['plates']);
   const said = [
     many(given.members.length, '{n} member', '{n} members'),
     many(given.cuts.length, '{n} different part', '{n} different parts'),
     many(given.joints.length, '{n} joint', '{n} joints'),
+    ...(plates.length ? [many(plates.length, '{n} plate', '{n} plates')] : []),
   ].join(t(', '));
   return {
     solid: solidOf(given, rowsOf(request['others']), context.sizes, said),
@@ -35,7 +38,7 @@ export async function wholeFrame(_: Row, answer: Answer, context: Context): Prom
     ),
     said: t('{text}; {mass} in all.', {text: said, mass: withUnit(Number(totals['mass_kg']), 'kg')}),
     inspected: {link, lists: itemsOf(given)},
-    tables: [cutList(given.cuts), ...(notCut.length ? [notCutTable(notCut)] : [])],
+    tables: [cutList(given.cuts), ...plateTable(given), ...(notCut.length ? [notCutTable(notCut)] : [])],
   };
 }
 
@@ -78,6 +81,8 @@ function solidOf(given: Told, others: Row[], sizes: Sizes, said: string): Solid 
     const outer = reachOf(own);
     return bounds(heightsOf(own).flat()).flatMap((z) => [-outer, outer].map((x) => placed(to, [x, x, z])));
   });
+  const plates = platesIn(given);
+  corners.push(...plates.flatMap(({frame: to, outline}) => outline.map(([x, y]) => placed(to, [x, y, 0]))));
   const box = [0, 1, 2].map((k) => bounds(corners.map((p) => p[k] as number)));
   const centre = box.map(([low, high]) => (low + high) / 2) as Vector;
   const extent = box.map(([low, high]) => high - low);
@@ -86,8 +91,9 @@ function solidOf(given: Told, others: Row[], sizes: Sizes, said: string): Solid 
     link,
     tubes: [],
     assembly,
+    plates,
     partners: partners(given, lines, others, sizes),
-    legend: there.map((standing) => ({tone: toneOf(standing), text: choice(standing)})),
+    legend: [...there.map((standing) => ({tone: toneOf(standing), text: choice(standing)})), ...(plates.length ? [{tone: 'plate', text: t('plate')}] : [])],
     told: sentences(
       t('{text}.', {text: said}),
       there.map((standing) => `${choice(standing)}: ${given.standing.filter((each) => each === standing).length}`).join(', '),
@@ -123,7 +129,9 @@ function assemblyOf(given: Told, lines: Row[]): Assembly {
     frame: frame(member['frame']) ?? along(lines[i] as Row),
     tone: toneOf(given.standing[i] as string),
   }));
-  return {parts, members, lights: lightsOf(given), joints: jointsOf(given, {parts, members}, lines, rowsOf(given.answer.request['others']))};
+  const {request} = given.answer;
+  const others = rowsOf(request['others']);
+  return {parts, members, lights: lightsOf(given), joints: jointsOf(given, {parts, members}, lines, [...others, ...rowsOf(request['plates'])])};
 }
 
 /** A part that is not round; if it is missing, its tube from work point to work point. */
@@ -145,15 +153,15 @@ function jointsOf(given: Told, {parts, members}: Pick<Assembly, 'parts' | 'membe
     if (branch === undefined || (chord === undefined && !other)) return [];
     const {frame: own, part: at} = members[branch] as Assembly['members'][number];
     const ends = heightsOf(parts[at] as MemberPart).map((z) => placed(own, [0, 0, bounds(z).reduce((a, b) => a + b) / 2])) as [Vector, Vector];
-    const [origin, along, flat] =
-      chord === undefined ? [...placeOf(other as Row), (other as Row)['kind'] === 'plane'] : [...axisOf(lines[chord] as Row), false];
+    const [origin, along, flat] = chord === undefined ? [...placeOf(other as Row), isFlat(other as Row)] : [...axisOf(lines[chord] as Row), false];
     const off = (p: Vector) => distance(p, origin, along, flat);
-    const middle = joint['kind'] === 'through' && !flat ? passing(ends, origin, along) : undefined;
+    const middle = joint['kind'] === 'through' ? (flat ? crossing : passing)(ends, origin, along) : undefined;
     const item = given.members.length + j;
     return [{at: middle ?? ends.reduce((a, b) => (off(b) < off(a) ? b : a)), item, of: chord === undefined ? [branch] : [branch, chord]}];
   });
 }
 
+const isFlat = (other: Row) => other['kind'] === 'plane' || 'thickness_mm' in other;
 const axisOf = (line: Row): [Vector, Vector] => {
   const [start, end] = lineOf(line);
   return [start, unitVector(add(end, start, -1))];
@@ -164,6 +172,13 @@ function distance(p: Vector, origin: Vector, direction: Vector, flat: boolean): 
   const from = add(p, origin, -1);
   const rise = dot(from, direction);
   return flat ? Math.abs(rise) : Math.hypot(...add(from, direction, -rise));
+}
+
+/** Where a line crosses a plane. */
+function crossing([start, end]: [Vector, Vector], origin: Vector, normal: Vector): Vector {
+  const [from, to] = [start, end].map((p) => dot(add(p, origin, -1), normal)) as [number, number];
+  const share = from === to ? 0.5 : from / (from - to);
+  return add(start, add(end, start, -1), Math.min(1, Math.max(0, share)));
 }
 
 /** Where a line passes an axis. */

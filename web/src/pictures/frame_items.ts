@@ -5,6 +5,7 @@ import type {Facts, Inspected, Item} from '../picture';
 import type {Answer, Issue, Warning} from '../service';
 import {choice, measured, sentence, sentences} from '../words';
 import {figures, text} from './facts';
+import {plateItems, plateLights} from './frame_plates';
 
 /** State of a member: its part's verdict, or the frame's if that is worse. From good to bad. */
 export const standings = ['ok', 'review', 'reject', 'none'] as const;
@@ -49,6 +50,7 @@ export function itemsOf(given: Told): Inspected['lists'] {
     {id: 'members', title: t('Members'), items: given.members.map((_, i) => memberItem(given, i))},
     {id: 'joints', title: t('Joints'), items: given.joints.map((_, i) => jointItem(given, i, place))},
     {id: 'parts', title: t('Parts'), items: given.cuts.map((_, i) => partItem(given, i, place))},
+    ...plateItems(given, place),
   ];
 }
 
@@ -60,6 +62,7 @@ export function lightsOf(given: Told): number[][] {
     ...given.members.map((_, i) => [i]),
     ...given.joints.map((joint) => placed([joint['branch'] as Json, joint['chord'] as Json])),
     ...given.cuts.map((cut) => placed(cut['members'] as Json[])),
+    ...plateLights(given, placed),
   ];
 }
 

@@ -26,6 +26,7 @@ import {Members} from './members';
 import {Beam, Cone, cutTube, drawnLine, matrix, partnerMesh, ribbon} from './meshes';
 import {Measure, snapped} from './measure';
 import {openings} from './openings';
+import {plateMesh} from './plates';
 import {boxOf, placeOf, planeOf, type Slice} from './slice';
 import {lens, refit, towards, type Side} from './views';
 import {holedTube} from './walls';
@@ -126,6 +127,7 @@ export class Stage {
       ...solid.tubes.map((tube) => cutTube(tube, before, solid.tint)),
       ...(solid.holed ?? []).map((tube) => close(holedTube(tube, solid.tint))),
       ...(solid.ribbons ?? []).map((each) => (solid.closed ? close(ribbon(each, solid.tint)) : ribbon(each, solid.tint))),
+      ...(solid.plates ?? []).map(plateMesh),
       ...(solid.openings?.length ? [openings(solid.openings)] : []),
       ...(solid.lines ?? []).map((l) => drawnLine(l.points, l.tone)),
       this.partners,
@@ -135,6 +137,7 @@ export class Stage {
     this.labels.show(solid.assembly?.members.map(({name}) => name) ?? [], solid.assembly?.joints ?? []);
     if (solid.partners.length) this.partners.add(...solid.partners.map(partnerMesh));
     this.renderer.domElement.dataset['state'] = before ? 'before' : 'after';
+    this.renderer.domElement.dataset['plates'] = String(solid.plates?.length ?? 0);
     this.renderer.domElement.dataset['members'] = String(this.members?.axes.length ?? 0);
     this.beam = new Beam();
     this.content.add(this.beam);
