@@ -4,6 +4,6 @@ namespace tubecut::api {
 
 std::string_view version() { return TUBECUT_VERSION; }
 
-int numerics() { return 9; }
+int numerics() { return 10; }
 
 }  // namespace tubecut::api

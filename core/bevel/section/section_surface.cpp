@@ -8,6 +8,7 @@
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
 #include "core/joint/solid.hpp"
+#include "core/math/dome.hpp"
 #include "core/math/mixed.hpp"
 #include "core/math/search.hpp"
 
@@ -15,11 +16,10 @@ namespace tubecut::bevel {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr int kAlong = 14;          // places within reach of the beam, to each side
-constexpr int kAcross = 4;          // parts of the wall
-constexpr std::size_t kDepths = 6;  // five places across the wall, and the edge of the land
-constexpr int kRounds = 2;          // of the search across and along
-constexpr double kMargin = 0.008;   // of half a kerf: five times what the grid may fall short
+constexpr int kAlong = 14;         // places within reach of the beam, to each side
+constexpr int kAcross = 4;         // parts of the wall
+constexpr double kMargin = 0.008;  // of half a kerf: five times what the grid may fall short
+constexpr double kClose = 0.05;    // of half a kerf: about the best place, a last search
 constexpr int kGoldenSteps =
     10;                    // the bracket shrinks to 1/120, the need is good to 1e-6 of a kerf
 constexpr int kInGap = 8;  // parts of a gap between rows
@@ -129,7 +129,9 @@ double drop_on_flat(const SectionSurface& surface, const SectionSurface::Line& o
   return best;
 }
 
-/// Finds the drop that one place of the cut needs.
+/// Finds the drop that one place of the cut needs. Along a line across the wall the need is concave
+/// on each side of the land's edge, with a closed form of its largest value; so only the way along
+/// s is searched.
 class Drop {
  public:
   Drop(const SectionSurface& surface, std::size_t row, double share, double kerf)
@@ -144,36 +146,17 @@ class Drop {
   double needed(std::size_t row) {
     const double reach = surface_.beam_reach(2.0 * half_);
     const auto grid = places(reach);
-    std::vector<double> sampled(grid.size() * kDepths);
-    for (std::size_t k = 0; k < grid.size(); ++k) {
-      const auto line = line_at(grid[k]);
-      for (std::size_t a = 0; a < kDepths; ++a) {
-        const double depth = depth_of(line, a);
-        sampled[a * grid.size() + k] = need(line, depth);
-        see(line, depth);
-      }
-    }
-    const double margin = kMargin * half_ * secant_;  // by which the grid may fall short
-    for (std::size_t a = 0; a < kDepths; ++a) refine(grid, sampled, a, margin);
+    std::vector<double> sampled;
+    sampled.reserve(grid.size());
+    for (const double s : grid) sampled.push_back(see(line_at(s)));
+    refine(grid, sampled);
     // The surface has its edges' corners at rows: both of a jump count.
-    surface_.rows_near(row, reach, [&](std::size_t i) { across(surface_.line(i, 0.0), margin); });
-    for (int round = 0; round < kRounds; ++round) {
-      const auto line = line_at(best_s_);
-      across(line, margin);
-      const double share = best_depth_ / line.wall, near = 0.05 * half_;
-      along(best_s_ - near, best_s_ + near,
-            [share](const SectionSurface::Line& other) { return share * other.wall; });
-    }
+    surface_.rows_near(row, reach, [&](std::size_t i) { see(surface_.line(i, 0.0)); });
+    along(best_s_ - kClose * half_, best_s_ + kClose * half_);
     return best_;
   }
 
  private:
-  /// Depths below the outside: of fractions of the wall, and of the land's edge.
-  [[nodiscard]] double depth_of(const SectionSurface::Line& line, std::size_t a) const {
-    if (a == kDepths - 1) return line.wall - surface_.land();
-    return line.wall * static_cast<double>(a) / static_cast<double>(kDepths - 2);
-  }
-
   /// Ascending s: dense where the beam's circle is steep, further out where lines bunch.
   [[nodiscard]] std::vector<double> places(double reach) const {
     static const auto kSines = [] {
@@ -183,6 +166,7 @@ class Drop {
       return sines;
     }();
     std::vector<double> out;
+    out.reserve(2 * kSines.size());
     for (const double sine : kSines) {
       out.push_back(own_.at.s + half_ * sine);
       if (reach * std::abs(sine) > half_) out.push_back(own_.at.s + reach * sine);
@@ -191,57 +175,22 @@ class Drop {
     return out;
   }
 
-  /// Refines every maximum of the grid, along and across, that may be the largest.
-  void refine(const std::vector<double>& grid, const std::vector<double>& sampled, std::size_t a,
-              double margin) {
+  /// Refines every maximum of the grid that may be the largest.
+  void refine(const std::vector<double>& grid, const std::vector<double>& sampled) {
+    const double margin = kMargin * half_ * secant_;  // by which the grid may fall short
     const auto n = grid.size();
-    const double* own = &sampled[a * n];
     for (std::size_t k = 0; k < n; ++k) {
-      const double here = own[k];
-      if (!(here > best_ - margin)) continue;
-      const bool left = k == 0 || here >= own[k - 1];
-      const bool right = k + 1 == n || here >= own[k + 1];
-      // Of depths with one need, as at B = 0, the outermost counts.
-      const bool outwards = a == 0 || here > sampled[(a - 1) * n + k];
-      const bool inwards = a + 1 == kDepths || here >= sampled[(a + 1) * n + k];
-      if (left && right && outwards && inwards)
-        along(grid[k == 0 ? 0 : k - 1], grid[k + 1 == grid.size() ? k : k + 1],
-              [&](const SectionSurface::Line& line) { return depth_of(line, a); });
+      const bool left = k == 0 || sampled[k] >= sampled[k - 1];
+      const bool right = k + 1 == n || sampled[k] >= sampled[k + 1];
+      if (left && right && sampled[k] > best_ - margin)
+        along(grid[k == 0 ? 0 : k - 1], grid[k + 1 == n ? k : k + 1]);
     }
-  }
-  template <class Depth>
-  void along(double low, double high, Depth depth) {
-    const auto most = math::golden_maximum<kGoldenSteps>(
-        [&](double s) {
-          const auto line = line_at(s);
-          return need(line, depth(line));
-        },
-        low, high);
-    const auto line = line_at(most.at);
-    see(line, depth(line));
   }
 
-  /// On each side of the land's edge the need is concave across the wall.
-  void across(const SectionSurface::Line& line, double margin) {
-    const double edge = line.wall - surface_.land();
-    double most = -kUnbounded, at = 0.0;
-    for (std::size_t a = 0; a < kDepths; ++a) {
-      const double depth = depth_of(line, a), value = need(line, depth);
-      see(line, depth);
-      if (!(value > most)) continue;
-      most = value;
-      at = depth;
-    }
-    if (!(most > best_ - margin)) return;
-    const double wide = line.wall / static_cast<double>(kDepths - 2);
-    const auto golden = [&](double low, double high) {
-      if (!(low < high)) return;
-      see(line, math::golden_maximum<kGoldenSteps>([&](double depth) { return need(line, depth); },
-                                                   low, high)
-                    .at);
-    };
-    golden(std::max(0.0, at - wide), std::min(at + wide, edge));
-    golden(std::max(edge, at - wide), std::min(at + wide, line.wall));
+  void along(double low, double high) {
+    const auto most =
+        math::golden_maximum<kGoldenSteps>([&](double s) { return need(line_at(s)); }, low, high);
+    see(line_at(most.at));
   }
 
   [[nodiscard]] SectionSurface::Line line_at(double s) const {
@@ -250,27 +199,42 @@ class Drop {
     return surface_.line_at(surface_.row_before(there), there);
   }
 
-  [[nodiscard]] double need(const SectionSurface::Line& line, double depth) const {
-    const Eigen::Vector2d off = line.at.point - depth * line.at.normal - own_.at.point;
+  /// The largest need of a line across the wall.
+  [[nodiscard]] double need(const SectionSurface::Line& line) const {
+    const Eigen::Vector2d off = line.at.point - own_.at.point;
     const double u = off.dot(tangent_), v = off.dot(own_.at.normal);
-    if (!(std::abs(u) < half_) || v < deepest_) return -kUnbounded;
-    return own_.outer + v * slope_ - surface_.z(line, depth) +
-           std::sqrt((half_ - u) * (half_ + u)) * secant_;
+    const double across = -line.at.normal.dot(tangent_), in = -line.at.normal.dot(own_.at.normal);
+    double most = -kUnbounded;
+    const auto see_part = [&](double from, double to, double z_from, double z_to) {
+      const double rise = (z_to - z_from) / (to - from);
+      const math::Dome dome{in * slope_ - rise, secant_, u, across, half_};
+      // The metal of the wall's other side does not count.
+      const double end = in < 0.0 ? std::min(to, (deepest_ - v) / in) : to;
+      const double begin = in > 0.0 ? std::max(from, (deepest_ - v) / in) : from;
+      const auto depth = math::highest(dome, begin, end);
+      if (!depth || (in == 0.0 && v < deepest_)) return;
+      most = std::max(most, own_.outer + v * slope_ - z_from + rise * from + dome.at(*depth));
+    };
+    const double edge = line.wall - surface_.land();
+    see_part(0.0, edge, line.outer, line.face);
+    if (surface_.land() > 0.0) see_part(edge, line.wall, line.face, line.inner);
+    return most;
   }
 
-  void see(const SectionSurface::Line& line, double depth) {
-    const double value = need(line, depth);
-    if (!(value > best_)) return;
-    best_ = value;
-    best_s_ = line.at.s;
-    best_depth_ = depth;
+  double see(const SectionSurface::Line& line) {
+    const double value = need(line);
+    if (value > best_) {
+      best_ = value;
+      best_s_ = line.at.s;
+    }
+    return value;
   }
 
   const SectionSurface& surface_;
   SectionSurface::Line own_;
   Eigen::Vector2d tangent_;
   double slope_, secant_, half_, deepest_;
-  double best_ = -kUnbounded, best_s_ = 0.0, best_depth_ = 0.0;
+  double best_ = -kUnbounded, best_s_ = 0.0;
 };
 
 }  // namespace
