@@ -306,7 +306,8 @@ bool any(const std::vector<Json>& of_members) {
   return std::ranges::any_of(of_members, [](const Json& own) { return !(own == Json{}); });
 }
 
-/// A limit holds for the parts that it is measured for, so some part must have it.
+/// A limit holds for the parts that it is measured for. Those of cut-outs need none, because a
+/// shop's limits stand in every request; the others need a part that has them.
 void check_frame_accepts(Reader& in, const FrameRequest& frame) {
   const auto& spec = frame.spec;
   const bool sound = in.sound("members");
@@ -314,7 +315,7 @@ void check_frame_accepts(Reader& in, const FrameRequest& frame) {
   const auto hole = [](const frame::StatedJoint& joint) { return joint.how.hole && !joint.plate; };
   check_accepts(in, {.preset = frame.preset,
                      .round = !sound || std::ranges::any_of(spec.members, round),
-                     .cutouts = !sound || any(frame.cutouts) || !frame.tabs.empty(),
+                     .cutouts = true,
                      .holes = spec.found.hole || std::ranges::any_of(spec.joints, hole)});
 }
 
