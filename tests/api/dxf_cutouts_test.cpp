@@ -200,4 +200,53 @@ TEST(DxfCutouts, EveryProblemIsAtTheText) {
   EXPECT_NEAR(number(whole.body, "result/cutouts/0/instances/0/z_from_mm"), 292.0, 1e-6);
 }
 
+/// A corner of a polyline is a place that the text states, never another: a number that cannot be
+/// read, or none, is refused, and so is an entity that is not flat.
+TEST(DxfCutouts, NoPlaceIsGuessed) {
+  const auto polyline = [](bool light, const std::string& third) {
+    std::string out = "0\nSECTION\n2\nENTITIES\n0\n";
+    out += light ? "LWPOLYLINE\n70\n1\n" : "POLYLINE\n70\n1\n";
+    for (const auto& place : {std::string("10\n0\n20\n0\n"), std::string("10\n20\n20\n0\n"), third,
+                              std::string("10\n0\n20\n10\n")})
+      out += (light ? "" : "0\nVERTEX\n") + place;
+    return out + (light ? "" : "0\nSEQEND\n") + "0\nENDSEC\n0\nEOF\n";
+  };
+  for (const bool light : {true, false}) {
+    for (const char* x : {"20,0", "20.0mm", "abc", "", "1.0D+1", "1e400", "20;", "nan"})
+      expect_refused(kParts,
+                     part_with(drawn(polyline(light, "10\n" + std::string(x) + "\n20\n10\n")), 0.0),
+                     "/cutouts/0/shape/dxf", "bad_text");
+    for (const char* place : {"10\n20\n", "20\n10\n", "10\n20\n20\n10\n42\n1,0\n"})
+      expect_refused(kParts, part_with(drawn(polyline(light, place)), 0.0), "/cutouts/0/shape/dxf",
+                     "bad_text");
+    const auto whole = post(kParts, part_with(with(drawn(polyline(light, "10\n+20\n20\n10.0\n")),
+                                                   "corners", Json{"as_cut"}),
+                                              0.0));
+    ASSERT_FALSE(whole.outcome.error) << whole.outcome.body.substr(0, 800);
+    EXPECT_NEAR(number(whole.body, "result/cutouts/0/instances/0/z_to_mm") -
+                    number(whole.body, "result/cutouts/0/instances/0/z_from_mm"),
+                20.0, 1e-9);
+  }
+  const auto only = [](const std::string& entity) {
+    return part_with(drawn("0\nSECTION\n2\nENTITIES\n" + entity + "0\nENDSEC\n0\nEOF\n"), 0.0);
+  };
+  const std::string circle = "0\nCIRCLE\n10\n0\n20\n0\n40\n8\n";
+  const std::string field = "/cutouts/0/shape/dxf";
+  for (const char* up : {"210\n0\n220\n1\n230\n0\n", "210\n0.8\n220\n0\n230\n0.6\n"})
+    expect_refused(kParts, only(circle + up), field, "out_of_range");
+  expect_refused(kParts, only(circle + "230\n-1,0\n"), field, "bad_text");
+  expect_refused(kParts, only("0\nCIRCLE\n10\n0\n20\n0\n40\n-8\n"), field, "bad_text");
+  expect_refused(kParts, only("0\nLINE\n10\n0\n20\n0\n30\n0\n11\n20\n21\n0\n31\n5\n"), field,
+                 "out_of_range");
+  // An angle that no turns lead down from, and what lies on the paper.
+  expect_refused(kParts, only("0\nARC\n10\n0\n20\n0\n40\n8\n50\n1e300\n51\n0\n"), field,
+                 "contour_open");
+  const auto marked =
+      post(kParts, part_with(drawn("\xEF\xBB\xBF"
+                                   "0\nSECTION\n2\nENTITIES\n" +
+                                   circle + "0\nVIEWPORT\n67\n1\n0\nENDSEC\n0\nEOF\n"),
+                             0.0));
+  EXPECT_FALSE(marked.outcome.error) << marked.outcome.body.substr(0, 800);
+}
+
 }  // namespace tubecut::testing::dxf_cutouts

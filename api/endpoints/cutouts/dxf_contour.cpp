@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -67,6 +68,7 @@ std::string_view next_line(std::string_view& text) {
 
 template <class Number>
 std::optional<Number> number_of(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
   Number out{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -128,28 +130,47 @@ Result<double> unit_of(const Drawing& drawing) {
                .hint = "save the drawing in mm (4) or inches (1)"});
 }
 
-/// Reads the numbers of an entity, and collects what is missing.
-class Numbers {
- public:
-  explicit Numbers(const Entity& entity) : entity_(entity) {}
+tl::unexpected<Error> no_number(const Entity& entity, std::string_view text) {
+  return no_dxf(std::string(entity.kind) + " has a coordinate that is no number: '" +
+                std::string(text.substr(0, 32)) + "'");
+}
+tl::unexpected<Error> not_flat(const Entity& entity) {
+  return fail({.code = ErrorCode::out_of_range,
+               .got = std::string(entity.kind),
+               .unit = {},
+               .hint = "it does not lie in the plane of the drawing, x and y; flatten it"});
+}
 
-  double operator()(int code) {
-    const auto text = entity_.find(code);
-    const auto value = text ? number_of<double>(*text) : std::nullopt;
-    if (!value || !std::isfinite(*value)) sound_ = false;
-    return value.value_or(0.0);
-  }
-  [[nodiscard]] bool sound() const { return sound_; }
+/// Reads a number of an entity; the fallback if it is absent.
+Result<double> read(const Entity& entity, int code, std::optional<double> fallback = {}) {
+  const auto text = entity.find(code);
+  if (!text && fallback) return *fallback;
+  if (!text) return no_dxf(std::string(entity.kind) + " lacks a coordinate");
+  const auto value = number_of<double>(*text);
+  if (!value || !std::isfinite(*value)) return no_number(entity, *text);
+  return *value;
+}
+Result<Vector2d> read_place(const Entity& entity, int code) {
+  TRY(const double x, read(entity, code));
+  TRY(const double y, read(entity, code + 10));
+  return Vector2d(x, y);
+}
 
- private:
-  const Entity& entity_;
-  bool sound_ = true;
-};
+/// Returns true if an entity is seen from behind, because its extrusion points away from the
+/// viewer.
+Result<bool> is_from_behind(const Entity& entity) {
+  constexpr double kUpright = 1e-6;
+  TRY(const double x, read(entity, 210, 0.0));
+  TRY(const double y, read(entity, 220, 0.0));
+  TRY(const double z, read(entity, 230, 1.0));
+  if (!(std::abs(x) + std::abs(y) <= kUpright * std::abs(z))) return not_flat(entity);
+  return z < 0.0;
+}
 
 /// An arc turning left, from one angle to the other; a whole turn as two halves.
 void add_arc(const Vector2d& centre, double radius, double from, double to, std::vector<Way>& out) {
-  double sweep = to - from;
-  while (sweep <= 0.0) sweep += kTwoPi;
+  double sweep = std::fmod(to - from, kTwoPi);
+  if (sweep <= 0.0) sweep += kTwoPi;
   const auto at = [&](double share) {
     const auto [sin, cos] = elementary::sincos(from + share * sweep);
     return Vector2d(centre + radius * Vector2d(cos, sin));
@@ -159,65 +180,113 @@ void add_arc(const Vector2d& centre, double radius, double from, double to, std:
   out.push_back({at(0.5), sweep == kTwoPi ? at(0.0) : at(1.0), bulge});
 }
 
-/// The places of a polyline in the order of its groups, each with its bulge.
-std::vector<Way> vertices_of(const Entity& entity) {
+struct Vertex {
+  std::optional<double> x, y, z;
+  double bulge = 0.0;
+};
+
+/// Returns the vertices of a polyline in the order of its groups.
+Result<std::vector<Vertex>> vertices_of(const Entity& entity) {
   const bool light = entity.kind == "LWPOLYLINE";
-  std::vector<Way> out;
+  std::vector<Vertex> out;
   bool inside = light;
   for (const auto& [code, value] : entity.groups) {
     if (code == 0) inside = value == "VERTEX";
-    if (!light && code == 0 && inside) out.push_back({Vector2d::Zero(), Vector2d::Zero(), 0.0});
     if (!inside) continue;
+    if (code == (light ? 10 : 0)) out.emplace_back();
+    if (out.empty() || (code != 10 && code != 20 && code != 30 && code != 42)) continue;
     const auto number = number_of<double>(value);
-    if (light && code == 10) out.push_back({Vector2d::Zero(), Vector2d::Zero(), 0.0});
-    if (out.empty() || !number) continue;
-    if (code == 10) out.back().from.x() = *number;
-    if (code == 20) out.back().from.y() = *number;
-    if (code == 42) out.back().bulge = *number;
+    if (!number || !std::isfinite(*number)) return no_number(entity, value);
+    auto& here = out.back();
+    if ((code == 10 && here.x) || (code == 20 && here.y))
+      return no_dxf(std::string(entity.kind) + " lacks a coordinate");
+    if (code == 10) here.x = number;
+    if (code == 20) here.y = number;
+    if (code == 30) here.z = number;
+    if (code == 42) here.bulge = *number;
   }
   return out;
 }
 
-void add_polyline(const Entity& entity, std::vector<Way>& out) {
-  auto all = vertices_of(entity);
-  const auto flags = number_of<int>(entity.find(70).value_or("0")).value_or(0);
-  const bool closed = (flags & 1) != 0;
-  for (std::size_t i = 0; i < all.size() && (closed || i + 1 < all.size()); ++i) {
-    all[i].to = all[(i + 1) % all.size()].from;
-    if ((all[i].to - all[i].from).norm() > 0.0) out.push_back(all[i]);
+Result<void> add_polyline(const Entity& entity, std::vector<Way>& out) {
+  constexpr int kClosed = 1, kSplineOrMesh = 4 | 16 | 64;
+  TRY(const double flags, read(entity, 70, 0.0));
+  const auto bits = static_cast<int>(std::clamp(flags, 0.0, 255.0));
+  if (entity.kind == "POLYLINE" && (bits & kSplineOrMesh) != 0)
+    return fail({.code = ErrorCode::bad_choice,
+                 .got = "POLYLINE of a spline or a mesh",
+                 .limit = std::string(kReads),
+                 .unit = {},
+                 .hint = "explode it, or fit arcs to it"});
+  TRY(const auto all, vertices_of(entity));
+  std::vector<Way> made;
+  for (const auto& vertex : all) {
+    if (!vertex.x || !vertex.y) return no_dxf(std::string(entity.kind) + " lacks a coordinate");
+    if (std::abs(vertex.z.value_or(0.0) - all.front().z.value_or(0.0)) > kJoined)
+      return not_flat(entity);
+    made.push_back({Vector2d(*vertex.x, *vertex.y), Vector2d::Zero(), vertex.bulge});
   }
+  const bool closed = (bits & kClosed) != 0;
+  for (std::size_t i = 0; i < made.size() && (closed || i + 1 < made.size()); ++i) {
+    made[i].to = made[(i + 1) % made.size()].from;
+    if ((made[i].to - made[i].from).norm() > 0.0) out.push_back(made[i]);
+  }
+  return {};
 }
 
-/// Adds an entity's ways. One whose extrusion points away from the viewer is seen from behind.
+Result<void> add_line(const Entity& entity, std::vector<Way>& out) {
+  TRY(const auto from, read_place(entity, 10));
+  TRY(const auto to, read_place(entity, 11));
+  TRY(const double low, read(entity, 30, 0.0));
+  TRY(const double high, read(entity, 31, 0.0));
+  if (std::abs(high - low) > kJoined) return not_flat(entity);
+  out.push_back({from, to, 0.0});
+  return {};
+}
+
+Result<void> add_circle(const Entity& entity, std::vector<Way>& out) {
+  TRY(const auto centre, read_place(entity, 10));
+  TRY(const double radius, read(entity, 40));
+  double from = 0.0, to = kTwoPi;
+  if (entity.kind == "ARC") {
+    TRY(from, read(entity, 50));
+    TRY(to, read(entity, 51));
+    from *= kRadPerDeg;
+    to *= kRadPerDeg;
+  }
+  if (!(radius > 0.0))
+    return no_dxf(std::string(entity.kind) + " has a radius that is not above 0");
+  add_arc(centre, radius, std::fmod(from, kTwoPi), std::fmod(to, kTwoPi), out);
+  return {};
+}
+
+/// Adds an entity's ways.
 Result<void> add_entity(const Entity& entity, std::vector<Way>& out) {
-  Numbers number(entity);
-  std::vector<Way> made;
-  if (entity.kind == "LINE") {
-    const Vector2d from(number(10), number(20)), to(number(11), number(21));
-    made.push_back({from, to, 0.0});
-  } else if (entity.kind == "CIRCLE") {
-    add_arc(Vector2d(number(10), number(20)), number(40), 0.0, kTwoPi, made);
-  } else if (entity.kind == "ARC") {
-    const Vector2d centre(number(10), number(20));
-    const double radius = number(40);
-    add_arc(centre, radius, number(50) * kRadPerDeg, number(51) * kRadPerDeg, made);
-  } else if (entity.kind == "LWPOLYLINE" || entity.kind == "POLYLINE") {
-    add_polyline(entity, made);
-  } else {
+  using Add = Result<void> (*)(const Entity&, std::vector<Way>&);
+  static constexpr std::array<std::pair<std::string_view, Add>, 5> kAdd{
+      {{"LINE", add_line},
+       {"ARC", add_circle},
+       {"CIRCLE", add_circle},
+       {"LWPOLYLINE", add_polyline},
+       {"POLYLINE", add_polyline}}};
+  const auto* add = std::ranges::find(kAdd, entity.kind, &std::pair<std::string_view, Add>::first);
+  if (add == kAdd.end())
     return fail({.code = ErrorCode::bad_choice,
                  .got = std::string(entity.kind.substr(0, 32)),
                  .limit = std::string(kReads),
                  .unit = {},
                  .hint = "explode or remove it: the drawing has one contour and nothing else"});
+  std::vector<Way> made;
+  TRY(add->second(entity, made));
+  if (entity.kind != "LINE") {  // a line's places are the drawing's own
+    TRY(const bool behind, is_from_behind(entity));
+    if (behind)
+      for (auto& way : made) {
+        way.from.x() = -way.from.x();
+        way.to.x() = -way.to.x();
+        way.bulge = -way.bulge;
+      }
   }
-  if (!number.sound()) return no_dxf(std::string(entity.kind) + " lacks a coordinate");
-  const auto up = entity.find(230);
-  if (entity.kind != "LINE" && up && number_of<double>(*up).value_or(1.0) < 0.0)
-    for (auto& way : made) {
-      way.from.x() = -way.from.x();
-      way.to.x() = -way.to.x();
-      way.bulge = -way.bulge;
-    }
   std::ranges::move(made, std::back_inserter(out));
   return {};
 }
@@ -282,11 +351,15 @@ cutout::DrawnSegment piece_of(const Way& way) {
 }  // namespace
 
 Result<cutout::Contour> read_dxf_contour(std::string_view text) {
+  if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; text.starts_with(kByteOrderMark))
+    text.remove_prefix(kByteOrderMark.size());
   TRY(const auto groups, groups_of(text));
   const auto drawing = drawing_of(groups);
   TRY(const auto unit, unit_of(drawing));
   std::vector<Way> ways;
-  for (const auto& entity : drawing.entities) TRY(add_entity(entity, ways));
+  for (const auto& entity : drawing.entities)
+    if (entity.find(67).value_or("0") != "1")  // what lies on the paper is not the drawing
+      TRY(add_entity(entity, ways));
   if (ways.empty()) return no_dxf("the section ENTITIES has no contour");
   if (ways.size() > kMostWays)
     return fail({.code = ErrorCode::out_of_range,
