@@ -8,6 +8,7 @@
 #include "core/frame/frame_parts.hpp"
 #include "core/joint/finished.hpp"
 #include "core/joint/node/in_line.hpp"
+#include "core/joint/node/node_parts.hpp"
 #include "core/plate/web.hpp"
 
 namespace tubecut::frame::detail {
@@ -51,6 +52,23 @@ Result<End> end_of_joint(const FrameSpec& spec, std::size_t index, const Heights
                .hint = "both ends are equally near; select one with end"});
 }
 
+/// An end is at most so far from the plate as one may be from a member as wide as its own, because
+/// the cut would move it by more than anybody draws it short or long.
+Result<void> check_near(std::size_t index, const joint::Member& member, double height,
+                        double thickness, double slope) {
+  const double outside = std::max(height, -thickness - height);
+  const double most = joint::detail::far_end(member, member);
+  if (!(outside > most * std::abs(slope))) return {};
+  return fail({.code = ErrorCode::no_contact,
+               .member = joint_path(index),
+               .got = outside / std::abs(slope),
+               .limit = most,
+               .unit = "mm",
+               .hint = "the member's end is too far from the plate along its axis: the joint would "
+                       "cut off or add that much; move the end or the plate, or, if the member "
+                       "passes the plate, use through"});
+}
+
 /// A member that passes through reaches beyond both faces.
 Result<AtPlate> passing_through(std::size_t index, const Heights& heights, double thickness) {
   const auto [low, high] = std::minmax(heights.start, heights.finish);
@@ -86,6 +104,12 @@ Result<void> add_stood(const FrameSpec& spec, const Joined& joined, std::size_t 
                  .limit = 0.0,
                  .unit = "mm",
                  .hint = "the member meets the plane of the plate outside its outline"});
+  for (const auto& hole : out.plate.holes)
+    if (plate::encloses(hole.chain, outline.front().from) && plate::gap(hole.chain, outline) > 0.0)
+      return fail({.code = ErrorCode::no_contact,
+                   .member = joint_path(*one.stated),
+                   .hint = "the member stands in opening " + hole.name + " of " +
+                           spec.plates[one.chord].name + " and touches no metal"});
   out.stood.push_back({one.branch, index, at.front, std::move(outline)});
   return {};
 }
@@ -200,6 +224,14 @@ double overhang(const cutout::Chain& outline, const cutout::Chain& plate) {
   return out;
 }
 
+/// Returns how wide the part of a wall is that stands over an opening, mm: over its border, or
+/// nearer to it than the wall is thick.
+double over_opening(const cutout::Chain& outline, double wall, const cutout::Chain& hole) {
+  const double off = plate::gap(hole, outline);
+  const bool within = plate::encloses(outline, hole.front().from);
+  return off == 0.0 || within ? wall - off : 0.0;
+}
+
 }  // namespace
 
 joint::Partner partner_of(const FrameSpec& spec, const OtherAt& one) {
@@ -231,6 +263,8 @@ Result<AtPlate> at_plate(const FrameSpec& spec, std::size_t index) {
                  .member = joint_path(index),
                  .hint = "the member's other end lies between the faces of the plate, so it is not "
                          "known which face it is set on"});
+  const Vector3d axis = (m.finish - m.start).normalized();
+  TRY(check_near(index, m, heights.at(out.end), thickness, axis.dot(frame.rows.row(2))));
   if (said.how.kind == How::Kind::set_on) {
     out.face = plane_at(frame, out.front ? 0.0 : -thickness, out.front);
     return out;
@@ -281,6 +315,17 @@ Result<std::vector<Warning>> warnings_of_plates(const FrameSpec& spec, const Joi
             {.code = WarningCode::wall_overhangs,
              .member = joint::place_of(one.member, at.end),
              .detail = "up to " + brief(by) + " mm beyond the outline of " + spec.plates[k].name});
+      }
+    for (const auto& one : plates[k].stood)
+      for (const auto& hole : plate.holes) {
+        const double over =
+            over_opening(one.outline, spec.members[one.member].thickness(), hole.chain);
+        if (!(over > kSlight)) continue;
+        TRY(const auto at, at_plate(spec, *joined.joints[one.joint].stated));
+        out.push_back({.code = WarningCode::wall_overhangs,
+                       .member = joint::place_of(one.member, at.end),
+                       .detail = "up to " + brief(over) + " mm of the wall stand over opening " +
+                                 hole.name + " of " + spec.plates[k].name});
       }
     for (std::size_t i = 0; i < spec.members.size(); ++i) {
       if (stopped()) return fail({.code = ErrorCode::cancelled});

@@ -130,6 +130,23 @@ TEST(FramePlates, ATubeThroughAPlateWithoutAJointIsReported) {
   EXPECT_EQ(text(answer.body, "verdict/status"), "review");
 }
 
+/// The wall of the post is 4 mm thick, from a radius of 40.45 to one of 44.45.
+TEST(FramePlates, AWallOverAnOpeningIsReported) {
+  const auto over = [](double x, double diameter) {
+    auto hole = parsed(R"({"id": "h", "shape": {"kind": "circle"}})");
+    hole = with(with(hole, "shape/diameter_mm", diameter), "at_mm",
+                Json{Json::Array{Json{x}, Json{0.0}}});
+    const auto answer = post(kFrames, with(frame(), "plates/0/cutouts", Json{Json::Array{hole}}));
+    EXPECT_FALSE(answer.outcome.error) << answer.outcome.body;
+    const auto* all = at(answer.body, "warnings").as<Json::Array>();
+    return all->empty() ? std::string() : text((*all)[0], "code") + text((*all)[0], "detail");
+  };
+  EXPECT_EQ(over(0.0, 80.0), "");   // a vent within the bore
+  EXPECT_EQ(over(70.0, 40.0), "");  // a bolt hole beside the post
+  EXPECT_EQ(over(0.0, 84.0), "wall_overhangsup to 1.55 mm of the wall stand over opening h of BP");
+  EXPECT_EQ(over(44.0, 20.0), "wall_overhangsup to 4 mm of the wall stand over opening h of BP");
+}
+
 struct Mistake {
   const char *path, *value, *code, *pointer;
 };
@@ -164,6 +181,13 @@ TEST(FramePlates, MistakesAreRefusedAtTheirFields) {
       {"joints/1/gap_mm", "45", "cutout_off_part", "/joints/1"},
       {"members/0/start_mm/0", "0.5", "", ""},
       {"plates/0/point_mm", "[500, 0, 0]", "no_contact", "/joints/0"},
+      {"plates/0/point_mm", "[0, 0, -1000]", "no_contact", "/joints/0"},
+      {"plates/0/point_mm", "[0, 0, 200]", "no_contact", "/joints/0"},
+      {"plates/0/point_mm", "[0, 0, 120]", "", ""},
+      {"plates/0/cutouts/0",
+       R"({"id": "window", "shape": {"kind": "rectangle", "width_mm": 100, "height_mm": 120},
+           "at_mm": [0, 0]})",
+       "no_contact", "/joints/0"},
   };
   for (const auto& one : all) {
     const auto answer = post(kFrames, with(frame(), one.path, parsed(one.value)));
