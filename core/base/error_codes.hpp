@@ -222,7 +222,9 @@
   X(contour_crosses, no_solution, "The contour crosses itself or encloses nothing.",               \
     "Correct the contour.")                                                                        \
   X(pattern_wraps, no_solution, "The pattern reaches round the tube onto itself.",                 \
-    "Use fewer, or a smaller pitch.")
+    "Use fewer, or a smaller pitch.")                                                              \
+  X(slot_too_narrow, no_solution, "A tab lacks its clearances in its slot.",                       \
+    "Widen the clearances, or cut the slot with a narrower kerf.")
 
 // clang-format on
 namespace tubecut {

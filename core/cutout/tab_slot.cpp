@@ -2,15 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/base/elementary.hpp"
 
 namespace tubecut::cutout {
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kTabDepths = 33;
@@ -31,10 +32,28 @@ TabShadow shadow_of(const Tab& tab, const PlaneWall& wall) {
           wall.thickness / std::abs(into) * slide};
 }
 
-/// A prism's far side on a wall of radius rho: how far in from the outside it lies at a distance
-/// from the tube's axis.
-double below_outside(const RoundWall& wall, double half) {
-  return wall.outer - std::sqrt((wall.inner - half) * (wall.inner + half));
+/// x of a place of a radius at a distance from the middle plane.
+double out_at(double radius, double y) { return std::sqrt((radius - y) * (radius + y)); }
+
+/// By how much a place u, v from a rectangle's middle lies beyond its round corner, mm.
+double beyond_corner(double u, double v, const Eigen::Vector2d& half, double corner) {
+  const double a = std::abs(u) - (half.x() - corner), b = std::abs(v) - (half.y() - corner);
+  return a > 0.0 && b > 0.0 ? elementary::hypot(a, b) - corner
+                            : -std::numeric_limits<double>::infinity();
+}
+
+/// The lines along a tab's axis that tell how it lies in a round wall, at x = 0, from its middle.
+std::vector<Vector2d> lines_of(const RoundTab& tab) {
+  std::vector<Vector2d> corners, out;
+  for (const auto& [a, b] : {std::pair{-0.5, -0.5}, {-0.5, 0.5}, {0.5, 0.5}, {0.5, -0.5}})
+    corners.push_back(a * tab.width + b * tab.thickness);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto &from = corners[i], &to = corners[(i + 1) % corners.size()];
+    out.push_back(from);
+    const double y = tab.middle.x() + from.x(), way = to.x() - from.x();
+    if (y * (y + way) < 0.0) out.push_back(from - y / way * (to - from));
+  }
+  return out;
 }
 
 }  // namespace
@@ -67,28 +86,55 @@ double tab_lacks(const Tab& tab, const PlaneWall& wall, const PlaneSlot& slot,
       const double x = std::abs(at.dot(slot.along)), y = std::abs(at.dot(slot.across));
       out =
           std::max({out, x + clearance.width - half_length, y + clearance.thickness - half_width});
-      const double u = x - (half_length - corner), v = y - (half_width - corner);
-      if (u > 0.0 && v > 0.0) out = std::max(out, elementary::hypot(u, v) - corner);
+      out = std::max(out, beyond_corner(x, y, {half_length, half_width}, corner));
     }
   return out;
 }
 
-RoundSlot slot_in_round(const RoundSlot& tab, const RoundSlot& clearance) {
-  return {tab.along + 2.0 * clearance.along, tab.round + 2.0 * clearance.round};
+double RoundTab::nearest() const { return std::max(0.0, std::abs(middle.x()) - half().x()); }
+double RoundTab::farthest() const { return std::abs(middle.x()) + half().x(); }
+double RoundTab::deep(const RoundWall& wall) const {
+  return out_at(wall.outer, nearest()) - out_at(wall.inner, nearest());
 }
 
-RoundSlot developed_slot(const RoundSlot& prism, const RoundWall& wall) {
-  return {prism.along,
-          2.0 * wall.outer * elementary::asin(std::min(1.0, 0.5 * prism.round / wall.inner))};
+RoundSlot slot_in_round(const RoundTab& tab, const RoundWall& wall, const Vector2d& clearance) {
+  const Vector2d half = tab.half() + clearance;
+  RoundSlot out{.low = tab.middle.x() - half.x(), .high = tab.middle.x() + half.x()};
+  const auto turn = [&](double y, bool towards_middle) {
+    return elementary::asin(y / (towards_middle ? wall.outer : wall.inner));
+  };
+  const double from = turn(out.low, out.low > 0.0), to = turn(out.high, out.high < 0.0);
+  out.turn = 0.5 * (from + to);
+  out.round = wall.outer * (to - from);
+  const double nearest = std::max(0.0, std::abs(tab.middle.x()) - half.x());
+  const double top = out_at(wall.outer, nearest);
+  const double bottom = out_at(wall.inner, std::abs(tab.middle.x()) + half.x());
+  out.along = 2.0 * half.y() + (top - bottom) * std::abs(tab.lean);
+  out.z = tab.middle.y() + 0.5 * (top + bottom) * tab.lean;
+  return out;
 }
 
-RoundSlot slot_in_round(const Tab& tab, double alpha, const RoundWall& wall,
-                        const TabClearance& clearance) {
-  const auto lean = elementary::sincos(alpha);
-  const double round = tab.width + 2.0 * clearance.width;
-  return {tab.thickness / lean.sin + below_outside(wall, 0.5 * round) * lean.cos / lean.sin +
-              2.0 * clearance.thickness,
-          round};
+double tab_lacks(const RoundTab& tab, const RoundWall& wall, const RoundSlot& slot, RoundCut cut,
+                 const Vector2d& clearance, double corner) {
+  const bool square = cut == RoundCut::square;
+  const double around = square ? 0.5 * slot.round / wall.outer : 0.0;
+  const Vector2d half(0.5 * (square ? slot.round : slot.high - slot.low), 0.5 * slot.along);
+  double out = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kTabDepths; ++i)
+    for (const auto& line : lines_of(tab)) {
+      const double share = static_cast<double>(i) / (kTabDepths - 1);
+      const double radius = wall.outer + share * (wall.inner - wall.outer);
+      const double y = tab.middle.x() + line.x();
+      const double z = tab.middle.y() + line.y() + tab.lean * out_at(radius, y) - slot.z;
+      const double low = square ? radius * elementary::sin(slot.turn - around) : slot.low;
+      const double high = square ? radius * elementary::sin(slot.turn + around) : slot.high;
+      out = std::max({out, low + clearance.x() - y, y + clearance.x() - high,
+                      std::abs(z) + clearance.y() - half.y()});
+      const double u = square ? wall.outer * (elementary::asin(y / radius) - slot.turn)
+                              : y - 0.5 * (slot.low + slot.high);
+      out = std::max(out, beyond_corner(u, z, half, corner));
+    }
+  return out;
 }
 
 double largest_slot_corner(const TabClearance& clearance) {

@@ -107,6 +107,12 @@ bool ends_between(const joint::Member& branch, const joint::Member& chord) {
   return joint::detail::runs_past(chord, branch, inside, 0.0);
 }
 
+/// Returns true if an end of the branch is near the chord.
+bool ends_on(const joint::Member& branch, const joint::Member& chord) {
+  return near(branch, nearer_end(branch, chord), chord).distance <=
+         joint::detail::far_end(branch, chord);
+}
+
 /// Returns the link of two members that are joined only by a statement: the branch's end at the
 /// chord. Of two alike, the one is the branch that ends between the ends of the other.
 Result<joint::Link> link(const FrameSpec& spec, const joint::NodeSpec& node, std::size_t index) {
@@ -116,9 +122,9 @@ Result<joint::Link> link(const FrameSpec& spec, const joint::NodeSpec& node, std
   const auto& a = spec.members[chord];
   const auto& z = spec.members[branch];
   if (ends_between(a, z) && !ends_between(z, a)) std::swap(chord, branch);
-  if (said.how.kind == How::Kind::tab_slot) {  // the statement names the branch first
-    branch = said.member;
-    chord = said.with;
+  if (said.how.kind == How::Kind::tab_slot) {
+    branch = tabbed_member(spec, said);
+    chord = branch == said.member ? said.with : said.member;
   }
   const auto& c = spec.members[chord];
   const auto& b = spec.members[branch];
@@ -335,6 +341,12 @@ Result<std::vector<Warning>> warnings_of_others(const FrameSpec& spec, const Joi
 }
 
 }  // namespace
+
+std::size_t tabbed_member(const FrameSpec& spec, const StatedJoint& joint) {
+  const auto &one = spec.members[joint.member], &other = spec.members[joint.with];
+  const bool second = !ends_on(one, other) && ends_on(other, one);
+  return second ? joint.with : joint.member;
+}
 
 std::vector<std::size_t> round_holes(const std::vector<Hole>& holes) {
   std::vector<std::size_t> out;

@@ -20,19 +20,23 @@ struct StatedTab {
 /// The tabs of a stated joint of kind tab_slot.
 struct TabStatement {
   std::size_t joint = 0;  // index of the stated joint
-  std::string name = {};  // of the slots: name.0, name.1
+  std::string name = {};  // of the slots: name.0, name.1; empty: that of the member with the tabs
   std::vector<StatedTab> tabs;
   cutout::TabClearance clearance;
   double proud = 0.0;                      // mm, of the tabs beyond the bore
   double end_kerf = 0.0, slot_kerf = 0.0;  // mm, of the beams that cut the two
+  bool along = false;                      // the slots' walls follow the tabs
+  bool tilts = true;                       // the torch that cuts the slots
 };
 
-/// A slot on a face of the chord's part: `along` the tube before it is turned.
+/// A slot on a face of the chord's part, or of a round one: `along` the tube before it is turned.
 struct FaceSlot {
-  int face = 1;
+  int face = 1;                  // 0: of a round tube
+  double phi = 0.0;              // rad, of a round tube
   double z = 0.0, offset = 0.0;  // mm, of its middle; z from the start's work point
   double along = 0.0, round = 0.0, corner = 0.0;
-  double turn = 0.0;  // rad, from +z towards growing s
+  double turn = 0.0;   // rad, from +z towards growing s
+  bool prism = false;  // of a round tube: its walls are straight along the tab, else square
 };
 
 struct FittedTab {
@@ -43,16 +47,19 @@ struct FittedTabs {
   std::size_t branch = 0, chord = 0;   // members: with tabs, with slots
   joint::End end = joint::End::start;  // of the branch
   std::vector<FittedTab> tabs;         // in the stated order
+  double stands_off = 0.0;             // mm, of the shoulder from the wall, on the beam's fillets
 };
 
-/// Computes both sides of a joint with tabs between two rectangular members. All problems are
-/// reported at once.
+/// Computes both sides of a joint with tabs of a rectangular member in a rectangular or round one.
+/// All problems are reported at once.
 ///
-/// Errors  at joints/i: joint_contradicts (between: the second member is the one that is cut on the
-///         first), unsupported_combination (between/0, between/1: a member without faces; kind:
-///         another body cuts this end too), out_of_range (clearance: the slot's corners meet the
-///         tab's, or the beam's fillets hold the shoulder off; tab_slots/k/width: beyond the flat,
-///         or the slot is no wider than the beam; tab_slots/k/offset: beyond the chord's flat, or
+/// Errors  at joints/i: joint_contradicts (between: the member with the tabs is not cut on the
+///         other), unsupported_combination (between/0: a member without faces; kind: another body
+///         cuts this end too; slot_wall: walls along a tab that leans, or in a round wall one that
+///         is off the middle, or a torch that does not tilt; tab_slots/k/face: it stands askew to a
+///         round chord), slot_too_narrow (clearance: the slot's round corners meet the tab's),
+///         out_of_range (tab_slots/k/width: beyond the flat, too wide for a round chord, or the
+///         slot is no wider than the beam; tab_slots/k/offset: beyond the chord's flat or bore, or
 ///         too near to another tab; proud: it meets the far wall).
 /// Source  docs/theory/cutouts.md, section 10.
 [[nodiscard]] Result<FittedTabs> fit_tabs(const FrameSpec& spec, const Frame& frame,

@@ -240,7 +240,8 @@ Json moved(Json frame, double turn) {
 
 TEST(FramePlates, ATurnedModelInAnotherOrderHasTheSamePartsAndPlates) {
   for (const auto* file :
-       {"frames/post-on-base-plate.json", "frames/sign-frame-with-tab-and-slot.json"}) {
+       {"frames/post-on-base-plate.json", "frames/sign-frame-with-tab-and-slot.json",
+        "frames/shelf-arms-on-a-round-post.json"}) {
     const auto plain = post(kFrames, example(file)),
                turned = post(kFrames, moved(example(file), 0.39));
     ASSERT_FALSE(turned.outcome.error) << turned.outcome.body.substr(0, 800);

@@ -192,10 +192,10 @@ class TabSlots(FormatTest):
         self.assertEqual(self.refused(tab(offset_mm=5)), [(f"{at}/tab_slots/1/width_mm", "out_of_range")])
         self.assertEqual(self.refused(tab(face=1)), [(f"{at}/tab_slots/1/offset_mm", "out_of_range")])
         self.assertEqual(self.refused(tab(face=5)), [(f"{at}/tab_slots/1/face", "out_of_range")])
-        self.assertEqual(self.refused(joint(clearance_mm=0.1)), [(f"{at}/clearance_mm", "out_of_range")])
+        self.assertEqual(self.refused(joint(clearance_mm=0.03)), [(f"{at}/clearance_mm", "slot_too_narrow")])
         self.assertEqual(self.refused(joint(proud_mm=60)), [(f"{at}/proud_mm", "out_of_range")])
         self.assertEqual(self.refused(joint(gap_mm=1)), [(f"{at}/gap_mm", "unknown_field")])
-        self.assertEqual(self.refused(joint(slot_wall="along")), [(f"{at}/slot_wall", "bad_choice")])
+        self.assertEqual(self.refused(joint(slot_wall="across")), [(f"{at}/slot_wall", "bad_choice")])
         self.assertEqual(self.refused(lambda body: body["joints"][0].pop("tab_slots")), [(f"{at}/tab_slots", "missing_field")])
         self.assertEqual(self.refused(lambda body: body.update(merge_in_line=True)), [("/merge_in_line", "unsupported_combination")])
         self.assertEqual(self.refused(lambda body: body["joints"][2].update(id="top")), [("/joints/2/id", "duplicate_id")])
@@ -205,15 +205,50 @@ class TabSlots(FormatTest):
             body["joints"][3]["tab_slots"][1]["width_mm"] = 30
         self.assertEqual(self.refused(several), [("/joints/0/tab_slots/0/width_mm", "out_of_range"), ("/joints/3/tab_slots/1/width_mm", "out_of_range")])
 
-    def test_round_members_are_refused_by_name(self):
+    def test_a_narrow_clearance_holds_the_shoulder_off(self):
+        """The slot's edge, c next to the tab, touches the fillet's circle of half a kerf: the shoulder stands off by what is left of it."""
+        for clearance in (0.05, 0.1, 0.124):
+            body = copy.deepcopy(EXAMPLE)
+            body["joints"][0].update(clearance_mm=clearance, clearance_thickness_mm=0.2)
+            answer = self.service.answer("frames", body)
+            [warning] = answer["warnings"]
+            self.assertEqual((warning["code"], warning["pointer"], answer["verdict"]["status"]), ("shoulder_off", "/joints/0/clearance_mm", "review"))
+            off = float(re.match(r"by ([0-9.e-]+) mm", warning["detail"]).group(1))
+            self.assertAlmostEqual(math.hypot(KERF / 2 - clearance, KERF / 2 - off), KERF / 2, delta=1e-6)
+            checks = {check["name"]: check for check in answer["verification"]["checks"]}
+            self.assertLessEqual(checks["tab_in_slot"]["value"], checks["tab_in_slot"]["limit"])
+        body["joints"][0].update(clearance_mm=KERF / 2)
+        self.assertEqual(self.service.answer("frames", body)["warnings"], [])
+
+    def test_what_is_too_narrow_states_the_clearance_that_suffices(self):
+        body = copy.deepcopy(EXAMPLE)
+        body["joints"][0].update(clearance_mm=0.01)
+        _, _, content = self.service.ask("frames", body)
+        [issue] = json.loads(content)["errors"]
+        self.assertEqual((issue["pointer"], issue["code"]), ("/joints/0/clearance_mm", "slot_too_narrow"))
+        body["joints"][0].update(clearance_mm=issue["limit"])
+        self.assertEqual(self.service.answer("frames", body)["verdict"]["status"], "review")
+
+    def test_walls_along_a_tab_are_those_of_a_tab_at_a_right_angle(self):
+        plain, along = leaning(90, 1), leaning(90, 1)
+        along["joints"][0]["slot_wall"] = "along"
+        slots = [part(self.service.answer("frames", body), "post")["request"]["cutouts"] for body in (plain, along)]
+        self.assertEqual(*slots)
+        self.assertEqual(self.refused(lambda body: body["joints"][0].update(slot_wall="along"), body=leaning(60, 1)),
+                         [("/joints/0/slot_wall", "unsupported_combination")])
+
+    def test_round_members_take_tabs_and_have_none(self):
         def rounded(name):
             def change(body):
                 [member] = [one for one in body["members"] if one["id"] == name]
                 member["size"] = "CHS 60.3x3.2"
                 member.pop("cutouts", None)
             return change
-        self.assertEqual(self.refused(rounded("left post")),
-                         [("/joints/0/between/1", "unsupported_combination"), ("/joints/2/between/1", "unsupported_combination")])
+        body = copy.deepcopy(EXAMPLE)
+        rounded("left post")(body)
+        answer = self.service.answer("frames", body)
+        self.assertEqual(answer["verdict"]["status"], "ok", answer["warnings"])
+        self.assertEqual({one["wall"] for one in part(answer, "left post")["request"]["cutouts"]}, {"developed"})
         self.assertEqual(self.refused(rounded("top rail")),
                          [("/joints/0/between/0", "unsupported_combination"), ("/joints/1/between/0", "unsupported_combination")])
 

@@ -39,6 +39,7 @@ const exampleNames: Record<string, string> = {
   'nodes/k-joint-with-tables': later('A K joint, with the tables of its cuts'),
   'frames/rhs-gate': later('A gate of rectangular tubes by a tube laser'),
   'frames/sign-frame-with-tab-and-slot': later('A sign frame with tabs and slots'),
+  'frames/shelf-arms-on-a-round-post': later('Shelf arms with tabs on a round post'),
   'frames/rhs-trailer': later('A trailer frame of rectangular tubes'),
   'frames/rhs-rack': later('A storage rack of square and rectangular tubes'),
   'frames/rhs-truss-with-gap-k-joints': later('A truss of square tubes with gap K joints'),

@@ -249,9 +249,7 @@ void decode_joint(Reader& in, const BodyIndex& bodies, const bevel::TableSpec& c
               .hint = "a body in others is not cut, so it has no hole"},
              in.find("hole"));
   if (tabs) {
-    const bool known = joint.member < out.spec.members.size();
-    out.tabs.push_back(decode_tab_slots(in, out.spec.joints.size(),
-                                        known ? out.spec.members[joint.member].name : ""));
+    out.tabs.push_back(decode_tab_slots(in, out.spec.joints.size()));
     out.cuts.push_back(cut_with_tabs());
   } else {
     out.cuts.push_back(decode_joint_cut(in, joint.how, out.preset, cut));

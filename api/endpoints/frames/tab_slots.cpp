@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "api/endpoints/frames/cutter_fields.hpp"
+#include "api/endpoints/frames/frame_pointers.hpp"
 #include "api/limits.hpp"
 #include "core/base/try.hpp"
 
@@ -19,8 +20,9 @@ constexpr Range kTabWidth{.min = 1.0, .max = 1e4};
 constexpr std::array<const char*, 6> kTabFields{
     "id", "tab_slots", "clearance_mm", "clearance_thickness_mm", "proud_mm", "slot_wall"};
 
-enum class SlotWall { square };
-constexpr std::array kSlotWalls{Option<SlotWall>{"square", SlotWall::square}};
+enum class SlotWall { square, along };
+constexpr std::array kSlotWalls{Option<SlotWall>{"square", SlotWall::square},
+                                Option<SlotWall>{"along", SlotWall::along}};
 
 std::string joint_path(std::size_t joint) { return "joints/" + std::to_string(joint); }
 
@@ -45,15 +47,21 @@ Json slot_of(const std::string& name, const frame::FaceSlot& slot) {
                      {"along_mm", written::mm(slot.along)},
                      {"round_mm", written::mm(slot.round)},
                      {"corner_radius_mm", written::mm(slot.corner)}};
-  Json::Object at{{"z_mm", written::mm(slot.z)},
-                  {"from", Json{"start"}},
-                  {"z_zero", Json{"work_point"}},
-                  {"face", Json{static_cast<double>(slot.face)}},
-                  {"offset_mm", written::mm(slot.offset)}};
-  return Json{Json::Object{{"id", Json{name}},
-                           {"wall", Json{"normal"}},
-                           {"shape", Json{std::move(shape)}},
-                           {"at", Json{std::move(at)}}}};
+  Json::Object at{
+      {"z_mm", written::mm(slot.z)}, {"from", Json{"start"}}, {"z_zero", Json{"work_point"}}};
+  Json::Object out{{"id", Json{name}}};
+  if (slot.face == 0) {
+    at.emplace_back("phi_deg", written::deg(Angle::rad(slot.phi)));
+    out.emplace_back("wall", Json{slot.prism ? "normal" : "developed"});
+    if (slot.prism) out.emplace_back("tilt", Json{"free"});
+  } else {
+    at.emplace_back("face", Json{static_cast<double>(slot.face)});
+    at.emplace_back("offset_mm", written::mm(slot.offset));
+    out.emplace_back("wall", Json{"normal"});
+  }
+  out.emplace_back("shape", Json{std::move(shape)});
+  out.emplace_back("at", Json{std::move(at)});
+  return Json{std::move(out)};
 }
 
 Json tab_of(const part::EndTab& tab) {
@@ -98,6 +106,18 @@ void add_slots(FrameJob& frame, const frame::TabStatement& stated, const frame::
   frame.end_tabs[{fitted.branch, fitted.end}] = Json{std::move(tabs)};
 }
 
+/// The beam's fillets between the tabs and the shoulder meet the slots' edges.
+void warn_of_shoulder(FrameJob& frame, const frame::TabStatement& stated, double off) {
+  if (!(off > 0.0)) return;
+  const double fillet = 0.5 * stated.end_kerf;
+  frame.frame.warnings.push_back(
+      {.code = WarningCode::shoulder_off,
+       .member = in_request(frame, joint_path(stated.joint) + "/clearance"),
+       .detail = "by " + brief(off) + " mm, on fillets of " + brief(fillet) +
+                 " mm; with this as clearance_mm it bears",
+       .most = off});
+}
+
 /// The tabs and slots as the two parts request them.
 frame::FittedTabs as_requested(const FrameJob& frame, std::size_t of) {
   auto out = frame.fitted[of];
@@ -111,8 +131,9 @@ frame::FittedTabs as_requested(const FrameJob& frame, std::size_t of) {
     for (const auto& one : chord->part.cutouts.all) {
       const auto* shape = std::get_if<cutout::Rectangle>(&one.shape);
       if (one.id != name || shape == nullptr) continue;
-      out.tabs[k].slot = {one.at.face,  one.at.z,      one.at.offset, shape->along,
-                          shape->round, shape->radius, one.turn};
+      const bool prism = one.wall == cutout::Wall::normal && one.tilt == bevel::Tilt::free;
+      out.tabs[k].slot = {one.at.face,  one.at.phi,    one.at.z, one.at.offset, shape->along,
+                          shape->round, shape->radius, one.turn, prism};
     }
   }
   return out;
@@ -124,8 +145,8 @@ void note_tab_slots(Reader& in) {
   for (const auto* name : kTabFields) in.note(name);
 }
 
-frame::TabStatement decode_tab_slots(Reader& in, std::size_t joint, const std::string& branch) {
-  frame::TabStatement out{.joint = joint, .name = branch};
+frame::TabStatement decode_tab_slots(Reader& in, std::size_t joint) {
+  frame::TabStatement out{.joint = joint};
   if (const auto id = in.optional_text("id")) out.name = *id;
   const auto tabs =
       in.array("tab_slots", {.min = 1, .max = kMostTabs}, [](Reader& t) -> frame::StatedTab {
@@ -137,7 +158,7 @@ frame::TabStatement decode_tab_slots(Reader& in, std::size_t joint, const std::s
   out.clearance.width = in.number("clearance_mm", kClearance);
   out.clearance.thickness = in.number("clearance_thickness_mm", kClearance, out.clearance.width);
   out.proud = in.number("proud_mm", kProud, 0.0);
-  in.choice("slot_wall", kSlotWalls, SlotWall::square);
+  out.along = in.choice("slot_wall", kSlotWalls, SlotWall::square) == SlotWall::along;
   return out;
 }
 
@@ -158,20 +179,25 @@ Result<void> add_tab_slots(FrameJob& frame) {
   std::vector<Issue> issues;
   for (auto& stated : frame.tabs) {
     const auto& said = frame.spec.joints[stated.joint];
-    stated.slot_kerf = kerf_of(frame, said.with, std::nullopt);
+    const auto branch = frame::tabbed_member(frame.spec, said);
+    if (stated.name.empty()) stated.name = frame.spec.members[branch].name;
+    stated.slot_kerf =
+        kerf_of(frame, branch == said.member ? said.with : said.member, std::nullopt);
     stated.end_kerf = stated.slot_kerf;
-    for (const auto& one : frame.frame.pieces[said.member].start)
-      if (frame.frame.joints[one.joint].stated == stated.joint)
-        stated.end_kerf = kerf_of(frame, said.member, joint::End::start);
-    for (const auto& one : frame.frame.pieces[said.member].finish)
-      if (frame.frame.joints[one.joint].stated == stated.joint)
-        stated.end_kerf = kerf_of(frame, said.member, joint::End::finish);
+    const auto& piece = frame.frame.pieces[branch];
+    for (const auto& [cutters, end] :
+         {std::pair{&piece.start, joint::End::start}, std::pair{&piece.finish, joint::End::finish}})
+      for (const auto& one : *cutters)
+        if (frame.frame.joints[one.joint].stated == stated.joint)
+          stated.end_kerf = kerf_of(frame, branch, end);
+    stated.tilts = frame.preset != Preset::tube_laser;
     auto fitted = frame::fit_tabs(frame.spec, frame.frame, stated);
     if (!fitted) {
       for (auto& one : fitted.error().issues) issues.push_back(std::move(one));
       continue;
     }
     frame.fitted.push_back(*std::move(fitted));
+    warn_of_shoulder(frame, stated, frame.fitted.back().stands_off);
     add_slots(frame, stated, frame.fitted.back(), issues);
   }
   if (!issues.empty()) return tl::unexpected(Error{std::move(issues)});

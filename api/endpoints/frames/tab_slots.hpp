@@ -10,9 +10,8 @@
 /// Joints of kind tab_slot: tabs on a member's end, and slots in another.
 namespace tubecut::api {
 
-/// Reads the fields of such a joint. `branch`: the id of the member with the tabs.
-[[nodiscard]] frame::TabStatement decode_tab_slots(Reader& in, std::size_t joint,
-                                                   const std::string& branch);
+/// Reads the fields of such a joint.
+[[nodiscard]] frame::TabStatement decode_tab_slots(Reader& in, std::size_t joint);
 /// Marks these fields as known, of a joint whose kind is not.
 void note_tab_slots(Reader& in);
 

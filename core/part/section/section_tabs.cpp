@@ -23,7 +23,6 @@ using bevel::SectionTable;
 using Eigen::Vector2d;
 
 constexpr double kSameStep = 1e-9;  // mm, between places that are one row
-constexpr double kBends = 1e-6;     // mm, of a straight cut
 constexpr double kBetween = 0.01;   // mm, that the beams next to two tabs lie apart at least
 
 /// A tab on the developed outside of the end's own frame: from place to place.
@@ -78,21 +77,13 @@ class TabRows {
 
   [[nodiscard]] double kerf_edge() const { return kerf_edge_; }
 
-  /// Returns the first strip on which the cut is not straight, the torch's passage included.
+  /// Returns the first strip on which the cut has a corner, the torch's passage included.
   [[nodiscard]] std::optional<std::size_t> bent() const {
-    for (std::size_t k = 0; k < strips_.size(); ++k) {
-      const auto& strip = strips_[k];
-      const double a = strip.from - half_, b = strip.from + strip.width + half_;
-      for (const auto* z : {&in_.z_inner, &in_.z_outer}) {
-        const double from = height(*z, a), to = height(*z, b);
-        for (std::size_t i = 0; i < in_.at.size(); ++i) {
-          const double off = strip.off(in_.at[i].s, in_.girth);
-          if (off < -half_ || off > strip.width + half_) continue;
-          const double share = (off + half_) / (b - a);
-          if (!(std::abs((*z)[i] - math::mixed(from, to, share)) <= kBends)) return k;
-        }
+    for (std::size_t k = 0; k < strips_.size(); ++k)
+      for (std::size_t i = 0; i < in_.at.size(); ++i) {
+        const double off = strips_[k].off(in_.at[i].s, in_.girth);
+        if (in_.corner[i] && off >= -half_ && off <= strips_[k].width + half_) return k;
       }
-    }
     return std::nullopt;
   }
 
@@ -323,7 +314,7 @@ Result<void> add_tabs(const TabbedEnd& end, SectionEnd& out) {
   if (const auto bent = rows.bent())
     return fail({.code = ErrorCode::unsupported_combination,
                  .member = tab_path(*bent),
-                 .hint = "the cut bends on this tab; a tab needs a straight part of the cut"});
+                 .hint = "the cut has a corner on this tab; move the tab off it"});
   auto tabbed = rows.make();
   out.kerf_edge = rows.kerf_edge();
   out.shoulder = std::exchange(out.own, std::move(tabbed));

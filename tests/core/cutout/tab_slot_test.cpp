@@ -15,6 +15,7 @@ namespace {
 
 using namespace cutout;
 using api::Json;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kPoint = 1e-9;  // mm, of the golden file
@@ -87,21 +88,26 @@ TEST(TabSlot, RoundWallsHaveTheSlotsOfAnIndependentProgram) {
     const double w = number(one, "tab_width"), t = number(one, "tab_thickness");
     ++cases;
     if (one.find("axis_deg") != nullptr) {
-      const auto slot = slot_in_round({.width = w, .thickness = t},
-                                      number(one, "axis_deg") * kRadPerDeg, wall, {});
+      const double alpha = number(one, "axis_deg") * kRadPerDeg;
+      const auto slot = slot_in_round({.width = {w, 0.0},
+                                       .thickness = {0.0, t / std::sin(alpha)},
+                                       .lean = 1.0 / std::tan(alpha)},
+                                      wall, {0.0, 0.0});
       EXPECT_NEAR(slot.along, number(one, "slot_along"), kPoint);
-      EXPECT_NEAR(slot.round, number(one, "slot_round"), kPoint);
+      EXPECT_NEAR(slot.high - slot.low, number(one, "slot_round"), kPoint);
       continue;
     }
     const bool across = text(one, "name") == "round_wall_tab_across";
     const double c = number(one, "clearance");
-    const auto prism = slot_in_round(across ? RoundSlot{t, w} : RoundSlot{w, t}, {c, c});
+    const Vector2d width = across ? Vector2d(w, 0.0) : Vector2d(0.0, w);
+    const Vector2d thickness = across ? Vector2d(0.0, t) : Vector2d(t, 0.0);
+    const auto slot = slot_in_round({.width = width, .thickness = thickness}, wall, {c, c});
     // The file states a prism's side around the tube first.
-    EXPECT_NEAR(prism.round, number(one, "prism/0"), kPoint);
-    EXPECT_NEAR(prism.along, number(one, "prism/1"), kPoint);
-    const auto laid = developed_slot(prism, wall);
-    EXPECT_NEAR(laid.round, number(one, "developed_round"), kPoint);
-    EXPECT_NEAR(laid.along, number(one, "developed_along"), kPoint);
+    EXPECT_NEAR(slot.high - slot.low, number(one, "prism/0"), kPoint);
+    EXPECT_NEAR(slot.along, number(one, "prism/1"), kPoint);
+    EXPECT_NEAR(slot.round, number(one, "developed_round"), kPoint);
+    EXPECT_NEAR(slot.along, number(one, "developed_along"), kPoint);
+    EXPECT_NEAR(slot.turn, 0.0, 1e-15);
   }
   EXPECT_EQ(cases, 3);
 }
@@ -192,17 +198,104 @@ TEST(TabSlot, AFilletHoldsTheShoulderOffUntilItTouchesTheSlotsEdge) {
   EXPECT_NEAR(shoulder_stands_off(r, 0.0), r, 1e-15);
 }
 
+/// A tab of either orientation that leans by up to 60 deg, beside a round tube's middle too.
+struct RoundFit {
+  RoundTab tab;
+  RoundWall wall;
+  Vector2d clearance;
+};
+std::vector<RoundFit> random_round_fits() {
+  std::mt19937 random(54);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::vector<RoundFit> out;
+  while (out.size() < 200) {
+    RoundFit one;
+    one.wall.outer = 20.0 + 100.0 * unit(random);
+    one.wall.inner = one.wall.outer * (0.75 + 0.2 * unit(random));
+    one.clearance = {0.05 + 0.5 * unit(random), 0.05 + 0.5 * unit(random)};
+    const double y = one.wall.inner * (0.05 + 0.4 * unit(random)), z = 2.0 + 40.0 * unit(random);
+    // Its sides may be a little askew.
+    const double turn = 0.02 * (unit(random) - 0.5);
+    one.tab.width = Vector2d(y, turn * y);
+    one.tab.thickness = Vector2d(-turn * z, z);
+    if (unit(random) < 0.5) std::swap(one.tab.width, one.tab.thickness);
+    one.tab.middle = {0.8 * one.wall.inner * (unit(random) - 0.5), 50.0 * unit(random)};
+    one.tab.lean = 3.0 * (unit(random) - 0.5);
+    if (one.tab.farthest() + one.clearance.x() > 0.9 * one.wall.inner) continue;
+    out.push_back(one);
+  }
+  return out;
+}
+
+/// Grows the tab by its clearances and takes it apart into places of the wall; returns by how much
+/// they lie beyond a slot's sides at most, in mm across the tube and along it.
+Vector2d beyond(const RoundFit& fit, const RoundSlot& slot, RoundCut cut) {
+  constexpr int kSides = 60, kDepths = 60;
+  const Vector2d half = fit.tab.half() + fit.clearance;
+  Vector2d out(-1e9, -1e9);
+  for (int i = -kSides; i <= kSides; ++i) {
+    const double y = fit.tab.middle.x() + half.x() * i / kSides;
+    const double from = std::sqrt(fit.wall.inner * fit.wall.inner - y * y);
+    const double to = std::sqrt(fit.wall.outer * fit.wall.outer - y * y);
+    for (int k = 0; k <= kDepths; ++k) {
+      const double x = from + (to - from) * k / kDepths, rho = std::hypot(x, y);
+      const double phi = std::atan2(y, x) - slot.turn;
+      const double around = cut == RoundCut::square
+                                ? rho * (std::abs(phi) - 0.5 * slot.round / fit.wall.outer)
+                                : std::max(slot.low - y, y - slot.high);
+      for (const double side : {-1.0, 1.0}) {
+        const double z = fit.tab.middle.y() + fit.tab.lean * x + side * half.y();
+        out = out.cwiseMax(Vector2d(around, std::abs(z - slot.z) - 0.5 * slot.along));
+      }
+    }
+  }
+  return out;
+}
+
+TEST(TabSlot, ATabGrownByItsClearancesJustFillsItsSlotInARoundWall) {
+  for (const auto& one : random_round_fits()) {
+    const auto slot = slot_in_round(one.tab, one.wall, one.clearance);
+    for (const auto cut : {RoundCut::square, RoundCut::prism}) {
+      const Vector2d over = beyond(one, slot, cut);
+      EXPECT_LE(over.x(), 1e-9);
+      EXPECT_LE(over.y(), 1e-9);
+      EXPECT_GE(over.x(), -1e-9);  // the smallest such slot
+      EXPECT_GE(over.y(), -0.02 * one.wall.outer);
+    }
+  }
+}
+
+TEST(TabSlot, InARoundWallTabCornersKeepTheClearancesAtEveryDepth) {
+  for (const auto& one : random_round_fits()) {
+    const auto slot = slot_in_round(one.tab, one.wall, one.clearance);
+    EXPECT_NEAR(tab_lacks(one.tab, one.wall, slot, RoundCut::square, one.clearance, 0.0), 0.0,
+                1e-9);
+    auto tight = slot;
+    tight.round -= 2e-3 * one.wall.outer / one.wall.inner;
+    EXPECT_GT(tab_lacks(one.tab, one.wall, tight, RoundCut::square, one.clearance, 0.0), 4e-4);
+    auto moved = slot;
+    moved.turn += 0.01;
+    EXPECT_GT(tab_lacks(one.tab, one.wall, moved, RoundCut::square, one.clearance, 0.0), 0.05);
+  }
+}
+
 TEST(TabSlot, OnARoundWallTheClearanceIsThatOnTheBore) {
   const RoundWall wall{44.45, 39.45};
-  const auto laid = developed_slot(slot_in_round({4.0, 30.0}, {0.3, 0.3}), wall);
+  const auto laid =
+      slot_in_round({.width = {30.0, 0.0}, .thickness = {0.0, 4.0}}, wall, {0.3, 0.3});
   const double turn = 0.5 * laid.round / wall.outer;
   EXPECT_NEAR(wall.inner * std::sin(turn), 15.0 + 0.3, 1e-12);
   EXPECT_GT(wall.outer * std::sin(turn), 15.0 + 0.3);
-  // A radial tab is the limit of a leaning one.
-  const auto upright =
-      slot_in_round(Tab{.width = 30.0, .thickness = 4.0}, 0.5 * kPi, wall, {0.3, 0.3});
-  EXPECT_NEAR(upright.along, 4.6, 1e-12);
-  EXPECT_NEAR(upright.round, 30.6, 1e-12);
+}
+
+TEST(TabSlot, BesideTheMiddleASlotsInnerSideClearsTheTabOutside) {
+  const RoundWall wall{44.45, 39.45};
+  const auto laid = slot_in_round(
+      {.middle = {20.0, 0.0}, .width = {0.0, 30.0}, .thickness = {4.0, 0.0}}, wall, {0.3, 0.2});
+  const double half = 0.5 * laid.round / wall.outer;
+  EXPECT_NEAR(wall.outer * std::sin(laid.turn - half), 18.0 - 0.3, 1e-12);
+  EXPECT_NEAR(wall.inner * std::sin(laid.turn + half), 22.0 + 0.3, 1e-12);
+  EXPECT_NEAR(laid.along, 30.4, 1e-12);
 }
 
 }  // namespace

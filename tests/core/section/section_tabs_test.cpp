@@ -121,6 +121,42 @@ TEST(SectionTabs, DrawnTabsOfLeaningEndsVerifyAndWeighTheirOwnMetal) {
   }
 }
 
+TEST(SectionTabs, OnASaddleTheTipIsTheSaddleMoved) {
+  Random random(54);
+  for (int i = 0; i < 12; ++i) {
+    auto spec = rail(drawn(random, 0.1, 1.8));
+    const double radius = drawn(random, 32.0, 120.0), lean = drawn(random, -35.0, 35.0);
+    for (auto* end : {&spec.start, &spec.finish})
+      end->cut.partners = {joint::TubeCutter{.radius = radius,
+                                             .inclination = Angle::deg(90.0 + lean),
+                                             .clocking = Angle::deg(i % 2 == 0 ? 0.0 : 90.0),
+                                             .offset = 0.0}};
+    double metal = 0.0;
+    for (auto* tabs : {&spec.start_tabs, &spec.finish_tabs})
+      for (const int face : {1, 2, 3, 4}) {
+        tabs->push_back({face, 0.0, drawn(random, 6.0, 20.0), drawn(random, 2.0, 12.0)});
+        metal += 3.0 * tabs->back().width * tabs->back().length;
+      }
+    const auto part = section_part(spec);
+    ASSERT_TRUE(part) << part.error().issues.front().member << part.error().issues.front().hint;
+    expect_verified(spec, *part);
+    auto plain = spec;
+    plain.start_tabs = plain.finish_tabs = {};
+    const auto without = section_part(plain);
+    EXPECT_NEAR(part->lengths.volume - without->lengths.volume, metal, 1e-5);
+    // Everywhere on a tab the edge lies its length beyond the saddle.
+    const auto outer = kRail.outer();
+    const auto own = edge_over_girth(part->finish.table, part->finish.table.z_outer);
+    const auto saddle = edge_over_girth(without->finish.table, without->finish.table.z_outer);
+    const double shift = part->finish.corners[0] - without->finish.corners[0];  // of z = 0
+    for (const auto& tab : spec.finish_tabs)
+      for (const double share : {-0.49, 0.0, 0.3}) {
+        const double turn = outer.on_face(tab.face, share * tab.width) / outer.girth() * kTwoPi;
+        EXPECT_NEAR(own.at(turn).high, saddle.at(turn).high + tab.length + shift, 0.01) << tab.face;
+      }
+  }
+}
+
 TEST(SectionTabs, ATabOverTheDatumIsOneOfAnyFace) {
   auto spec = rail(0.3);
   spec.start_tabs = {{.face = 1, .offset = 0.0, .width = 18.0, .length = 5.0}};
@@ -150,12 +186,14 @@ TEST(SectionTabs, AreRefusedAtTheirOwnFieldAllAtOnce) {
   EXPECT_EQ(got[0], std::pair(ErrorCode::out_of_range, std::string("start/end_tabs/0/width")));
   EXPECT_EQ(got[1], std::pair(ErrorCode::out_of_range, std::string("start/end_tabs/2/width")));
   EXPECT_EQ(got[2], std::pair(ErrorCode::out_of_range, std::string("start/end_tabs/2/offset")));
-  auto bent = rail(0.3);
-  bent.start.cut.partners = {joint::TubeCutter{.radius = 60.0}};
+  auto bent = rail(0.3);  // over the edge between two planes
+  bent.start.cut.partners = {joint::PlaneCutter{{0, 0, 10}, {0.3, 0, 1}},
+                             joint::PlaneCutter{{0, 0, 10}, {-0.3, 0, 1}}};
   bent.start_tabs = {{1, 0.0, 18.0, 5.0}, {2, 0.0, 18.0, 5.0}};
-  const auto on_round = refusals(bent);
-  ASSERT_EQ(on_round.size(), 1u);
-  EXPECT_EQ(on_round[0].first, ErrorCode::unsupported_combination);
+  const auto over_edge = refusals(bent);
+  ASSERT_EQ(over_edge.size(), 1u);
+  EXPECT_EQ(over_edge[0],
+            std::pair(ErrorCode::unsupported_combination, std::string("start/end_tabs/1")));
   auto bevelled = rail(0.3);
   bevelled.start.cut.groove = bevel::NoGroove{};
   bevelled.start_tabs = {{1, 0.0, 18.0, 5.0}};
