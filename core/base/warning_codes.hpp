@@ -97,7 +97,7 @@
     "Use a narrower angle, or drill the countersink.")                                            \
   X(countersink_open, note, "At the tube's sides the countersink stays within its hole.",         \
     "Use a greater diameter if the head must bear all round.")                                    \
-  X(shoulder_off, cut, "The beam's fillets beside the tabs hold the shoulder off the wall.",      \
+  X(shoulder_off, cut, "The beam's fillets next to the tabs hold the shoulder off the wall.",     \
     "Widen the clearance to half the kerf, notch the corners, or accept the gap.")
 // clang-format on
 

@@ -247,7 +247,7 @@ class Fitter {
     issue(ErrorCode::unsupported_combination, "slot_wall",
           centred ? "walls along a tab lean across the round tube, and the tube laser's head never "
                     "tilts; use square"
-                  : "the tab goes in " + brief(off) + " mm beside the middle of " + chord().name +
+                  : "the tab goes in " + brief(off) + " mm off the middle of " + chord().name +
                         "; walls along it are made only in the middle: use square");
   }
 

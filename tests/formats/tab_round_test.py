@@ -116,7 +116,7 @@ def free_of(body, answer):
 
 class TabRound(FormatTest):
     def drawn(self, seeded):
-        """A rectangular member on a round one: turned in plan, at any angle, beside its middle, from either end, in any order, with three decimals."""
+        """A rectangular member on a round one: turned in plan, at any angle, off its middle, from either end, in any order, with three decimals."""
         outer, wall = seeded.choice(((60.3, 3.2), (88.9, 4), (114.3, 5), (168.3, 6.3)))
         height, width = seeded.choice(((40, 20), (60, 40), (40, 40), (50, 30)))
         t = seeded.choice((2, 3))
@@ -124,8 +124,8 @@ class TabRound(FormatTest):
         run = [math.cos(plan) * math.sin(angle), math.sin(plan) * math.sin(angle), math.cos(angle)]
         side = cross([0, 0, 1], run)
         room = max(0, outer / 2 * 0.8 - width / 2 - 1)
-        beside = seeded.choice((0, 0, seeded.uniform(-room, room) / math.sqrt(dot(side, side))))
-        foot = [round(x, 3) for x in add([100, -50, 700], side, beside)]
+        aside = seeded.choice((0, 0, seeded.uniform(-room, room) / math.sqrt(dot(side, side))))
+        foot = [round(x, 3) for x in add([100, -50, 700], side, aside)]
         tip = [round(x, 3) for x in add(foot, run, 500)]
         up = unit(cross(run, side))
         kerf, c, ct = seeded.choice((0.2, 0.25, 0.4)), round(seeded.uniform(0.1, 0.5), 2), round(seeded.uniform(0.1, 0.5), 2)
@@ -134,8 +134,9 @@ class TabRound(FormatTest):
         branch = {"id": "arm", "start_mm": foot if end == "start" else tip, "end_mm": tip if end == "start" else foot, "up": [round(x, 6) for x in up],
                   "size": f"RHS {height}x{width}x{t} EN 10219" if height != width else f"SHS {height}x{width}x{t} EN 10219", "priority": 1}
         chord = {"id": "post", "start_mm": [100, -50, 0], "end_mm": [100, -50, 1500], "size": f"CHS {outer}x{wall}", "up": [1, 0, 0]}
+        flats = {face: (width, height)[face % 2 == 0] - 4 * t for face in faces}
         joint = {"between": ["arm", "post"], "kind": "tab_slot", "end": end, "clearance_mm": c, "clearance_thickness_mm": ct,
-                 "proud_mm": seeded.choice((0, 1.5)), "tab_slots": [{"face": face, "width_mm": round(seeded.uniform(4, 9), 3)} for face in faces]}
+                 "proud_mm": seeded.choice((0, 1.5)), "tab_slots": [{"face": face, "width_mm": round(seeded.uniform(4, flats[face] - kerf), 3)} for face in faces]}
         if seeded.random() < 0.5:
             chord["start_mm"], chord["end_mm"] = chord["end_mm"], chord["start_mm"]
         members = [branch, chord]
@@ -160,7 +161,11 @@ class TabRound(FormatTest):
                         self.assertTrue(issue["pointer"].startswith("/joints/0/") and issue["hint"], issue)
                     refused += 1
                     continue
-                self.assertEqual([one["code"] for one in answer["warnings"] if one["code"] == "no_part"], [], answer["warnings"])
+                lost = [one["detail"] for one in answer["warnings"] if one["code"] == "no_part"]
+                if any("cutouts_cross at /joints/0/tab_slots/" in one for one in lost):  # tabs of two faces that meet at a corner
+                    refused += 1
+                    continue
+                self.assertEqual(lost, [])
                 joint = body["joints"][0]
                 limits = joint["clearance_mm"], joint["clearance_thickness_mm"]
                 solid = copy.deepcopy(body)

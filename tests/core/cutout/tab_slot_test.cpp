@@ -198,7 +198,7 @@ TEST(TabSlot, AFilletHoldsTheShoulderOffUntilItTouchesTheSlotsEdge) {
   EXPECT_NEAR(shoulder_stands_off(r, 0.0), r, 1e-15);
 }
 
-/// A tab of either orientation that leans by up to 60 deg, beside a round tube's middle too.
+/// A tab of either orientation that leans by up to 60 deg, off a round tube's middle too.
 struct RoundFit {
   RoundTab tab;
   RoundWall wall;
@@ -288,7 +288,7 @@ TEST(TabSlot, OnARoundWallTheClearanceIsThatOnTheBore) {
   EXPECT_GT(wall.outer * std::sin(turn), 15.0 + 0.3);
 }
 
-TEST(TabSlot, BesideTheMiddleASlotsInnerSideClearsTheTabOutside) {
+TEST(TabSlot, OffTheMiddleASlotsInnerSideClearsTheTabOutside) {
   const RoundWall wall{44.45, 39.45};
   const auto laid = slot_in_round(
       {.middle = {20.0, 0.0}, .width = {0.0, 30.0}, .thickness = {4.0, 0.0}}, wall, {0.3, 0.2});
