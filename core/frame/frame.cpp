@@ -8,6 +8,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/frame/frame_parts.hpp"
+#include "core/frame/tab_slots.hpp"
 #include "core/joint/nearness.hpp"
 #include "core/joint/node/body_overlap.hpp"
 #include "core/joint/node/in_line.hpp"
@@ -105,12 +106,6 @@ End nearer_end(const joint::Member& branch, const joint::Member& chord) {
 bool ends_between(const joint::Member& branch, const joint::Member& chord) {
   const double inside = near(branch, nearer_end(branch, chord), chord).inside;
   return joint::detail::runs_past(chord, branch, inside, 0.0);
-}
-
-/// Returns true if an end of the branch is near the chord.
-bool ends_on(const joint::Member& branch, const joint::Member& chord) {
-  return near(branch, nearer_end(branch, chord), chord).distance <=
-         joint::detail::far_end(branch, chord);
 }
 
 /// Returns the link of two members that are joined only by a statement: the branch's end at the
@@ -341,12 +336,6 @@ Result<std::vector<Warning>> warnings_of_others(const FrameSpec& spec, const Joi
 }
 
 }  // namespace
-
-std::size_t tabbed_member(const FrameSpec& spec, const StatedJoint& joint) {
-  const auto &one = spec.members[joint.member], &other = spec.members[joint.with];
-  const bool second = !ends_on(one, other) && ends_on(other, one);
-  return second ? joint.with : joint.member;
-}
 
 std::vector<std::size_t> round_holes(const std::vector<Hole>& holes) {
   std::vector<std::size_t> out;

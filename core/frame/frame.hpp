@@ -139,10 +139,6 @@ struct Frame {
   std::vector<FramePlate> plates = {};
 };
 
-/// Returns the member of a joint of kind tab_slot that has the tabs: the first one, unless only the
-/// second one ends near the other.
-[[nodiscard]] std::size_t tabbed_member(const FrameSpec& spec, const StatedJoint& joint);
-
 /// Finds every joint once. From it derives the branch's end and the chord's hole, or both ends of a
 /// mitre, so the two sides always agree.
 ///

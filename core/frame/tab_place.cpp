@@ -6,6 +6,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
+#include "core/joint/nearness.hpp"
 
 namespace tubecut::frame {
 namespace {
@@ -15,7 +16,8 @@ using Eigen::Vector3d;
 using joint::End;
 
 constexpr double kParallel = 1e-9;
-constexpr double kWritten = 1e6;  // requests state mm to 1e-6
+constexpr double kDrawnOff = 1.0;  // mm, of an end from the body that it is drawn to
+constexpr double kWritten = 1e6;   // requests state mm to 1e-6
 
 /// Square to a round wall a beam follows a corner of this radius on the outside and no tighter one.
 double round_corner(const RoundEntry& entry, bool along, double kerf) {
@@ -23,7 +25,24 @@ double round_corner(const RoundEntry& entry, bool along, double kerf) {
   return std::ceil(0.5 * kerf * stretch * stretch * kWritten) / kWritten;
 }
 
+/// Returns true if the branch's stated or nearer end lies on the chord's axis or within its
+/// outline.
+bool ends_on(const joint::Member& branch, const joint::Member& chord,
+             const std::optional<End>& stated) {
+  const auto off = [&](End end) {
+    return joint::nearness(branch.at(end), {chord.start, chord.finish, 0.0}).distance;
+  };
+  const double least = stated ? off(*stated) : std::min(off(End::start), off(End::finish));
+  return least <= chord.reach() + kDrawnOff;
+}
+
 }  // namespace
+
+std::size_t tabbed_member(const FrameSpec& spec, const StatedJoint& joint) {
+  const auto &one = spec.members[joint.member], &other = spec.members[joint.with];
+  const bool second = !ends_on(one, other, joint.end) && ends_on(other, one, joint.end);
+  return second ? joint.with : joint.member;
+}
 
 WorldFace::WorldFace(const joint::Member& member, const Piece& piece, int face) {
   const Vector2d n = section::Curve::face_normal(face);

@@ -50,6 +50,10 @@ struct FittedTabs {
   double stands_off = 0.0;             // mm, of the shoulder from the wall, on the beam's fillets
 };
 
+/// Returns the member of a joint of kind tab_slot that has the tabs: the first one, unless only the
+/// second one ends on the other.
+[[nodiscard]] std::size_t tabbed_member(const FrameSpec& spec, const StatedJoint& joint);
+
 /// Computes both sides of a joint with tabs of a rectangular member in a rectangular or round one.
 /// All problems are reported at once.
 ///

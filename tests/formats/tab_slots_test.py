@@ -205,6 +205,15 @@ class TabSlots(FormatTest):
             body["joints"][3]["tab_slots"][1]["width_mm"] = 30
         self.assertEqual(self.refused(several), [("/joints/0/tab_slots/0/width_mm", "out_of_range"), ("/joints/3/tab_slots/1/width_mm", "out_of_range")])
 
+    def test_the_member_with_the_tabs_may_come_second(self):
+        body = copy.deepcopy(EXAMPLE)
+        for joint in body["joints"]:
+            joint["between"].reverse()
+        answer = self.service.answer("frames", body)
+        self.assertEqual(answer["result"], self.sign["result"])
+        for name in ("top rail", "left post"):
+            self.assertEqual(part(answer, name)["request"], part(self.sign, name)["request"])
+
     def test_a_narrow_clearance_holds_the_shoulder_off(self):
         """The slot's edge, c next to the tab, touches the fillet's circle of half a kerf: the shoulder stands off by what is left of it."""
         for clearance in (0.05, 0.1, 0.124):
