@@ -242,4 +242,36 @@ TEST(EverydaySectionParts, PathsAlongTheMiddleOfAFaceDoNotTurnTheTube) {
   }
 }
 
+/// Where one partner takes over from another the cut may step by tens of mm. Half a kerf from there
+/// the beam's need steps as much, in gaps between rows that are 0.03 to 0.1 mm wide.
+TEST(EverydaySectionParts, TheBeamSparesStepsBetweenTwoPartners) {
+  const auto body = [](const char* target, const char* ends, const char* rest) {
+    return parsed(std::string(R"({"preset": "tube_laser", "target": {"length_mm": 700, )") +
+                  target + R"(}, "ends": {)" + ends + "}, " + rest + "}");
+  };
+  const auto square = R"("kind": "rectangular_tube", "height_mm": 50, "width_mm": 50, "wall_mm": 3,
+                         "corner_radius_mm": 4.5)";
+  const auto oval = R"("kind": "flat_oval_tube", "height_mm": 60, "width_mm": 30, "wall_mm": 3)";
+  const auto box_and_plane = R"("finish": {"square_at_mm": 0}, "start": {"root_gap_mm": 2,
+      "cutters": [{"kind": "rectangular_tube", "width_mm": 50.8, "height_mm": 80,
+                   "corner_radius_mm": 6, "up": [0, 0, 1],
+                   "axis": {"point_mm": [0, 10, 0], "direction": [1, 0, 0.9]}},
+                  {"kind": "plane", "point_mm": [0, 10, 0], "normal": [-0.5, 0, 1]}]})";
+  const auto tube_and_box = R"("start": {"square_at_mm": 0}, "finish": {"cutters": [
+      {"kind": "tube", "outer_diameter_mm": 60.3,
+       "axis": {"point_mm": [0, 10, -20], "direction": [0, 0.5, 0.3]}},
+      {"kind": "rectangular_tube", "width_mm": 60, "height_mm": 60, "corner_radius_mm": 6,
+       "axis": {"point_mm": [-8, 0, 10], "direction": [0, 1, -0.5]}, "up": [0, 1, 0.1]}]})";
+  for (const char* kerf : {"0.2", "0.3", "1.5"})
+    for (const char* tolerance : {"0.01", "0.02", "0.05"})
+      for (const auto& [target, ends] :
+           {std::pair{square, box_and_plane}, {oval, box_and_plane}, {oval, tube_and_box}}) {
+        const auto rest = std::string(R"("kerf_mm": )") + kerf +
+                          R"(, "sampling": {"tolerance_mm": )" + tolerance + "}";
+        const auto answer = post(kParts, body(target, ends, rest.c_str()));
+        ASSERT_FALSE(answer.outcome.error) << rest << ends << answer.outcome.body.substr(0, 400);
+        EXPECT_EQ(at(answer.body, "verification/passed"), api::Json{true});
+      }
+}
+
 }  // namespace tubecut::testing::everyday_section_parts

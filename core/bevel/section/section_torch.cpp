@@ -18,7 +18,9 @@ constexpr double kNear[] = {0.5, 1.0};  // of half a kerf, from a row
 constexpr double kNearJump[] = {0.5, 0.95, 1.05, 1.4, 1.8, 2.4, 3.2, 4.2, 5.2};
 constexpr double kBend = 1e-3;  // mm: a straighter need is not divided
 constexpr int kDivisions = 3;   // of an interval, each into halves
-constexpr int kSpared = 6;      // rounds of lowering rows that the beam enters
+constexpr double kStep =
+    2e-3;                   // mm: an interval in which the need steps is divided to the shortest
+constexpr int kSpared = 6;  // rounds of lowering rows that the beam enters
 constexpr double kSampledShares[] = {0.0, 0.04, 0.1, 0.2, 0.35,
                                      0.5, 0.65, 0.8, 0.9, 0.96};  // shares of a gap
 constexpr double kEntered = 1e-4;                                 // mm
@@ -82,11 +84,13 @@ class Torch {
     return out;
   }
 
-  /// Appends the needs after `from` up to `to`.
+  /// Appends the needs after `from` up to `to`. Where a jump comes within the beam's reach the need
+  /// steps by as much as the jump is high.
   void divide(Need from, Need to, int divisions, std::vector<Need>& out) const {
-    if (divisions > 0 && (to.share - from.share) * surface_.width(from.row) > kShortest) {
+    if ((to.share - from.share) * surface_.width(from.row) > kShortest) {
       const auto middle = at(from.row, 0.5 * (from.share + to.share));
-      if (std::abs(middle.drop - 0.5 * (from.drop + to.drop)) > kBend) {
+      const double bend = std::abs(middle.drop - 0.5 * (from.drop + to.drop));
+      if (bend > (divisions > 0 ? kBend : kStep)) {
         divide(from, middle, divisions - 1, out);
         return divide(middle, to, divisions - 1, out);
       }
