@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -60,7 +61,9 @@ Cone cone_of(const Spec& spec) {
           .half = 0.5 * spec.countersink->angle};
 }
 
-Laying laying_of(const Spec& spec, const Ground& ground, bool far) {
+/// `over`: s of an anchor on a section whose chain leaves its flat.
+Laying laying_of(const Spec& spec, const Ground& ground, std::optional<double> over, bool far) {
+  if (over) return {*ground.section, *over, lay_of(spec.wall, spec.tilt), far};
   if (ground.section) return {ground.section->section(), far};
   // Along the tube all its walls are one, and check_sizes refuses any other that does not lean.
   if (std::holds_alternative<Slit>(spec.shape)) return {ground.tube, Lay::prism, far};
@@ -78,8 +81,7 @@ Result<std::size_t> mould_of(const Spec& spec, const Chain& chain, const Laying&
                              const Ground& ground, std::vector<Mould>& all) {
   const auto line = slit_of(spec);
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (!all[i].cone && all[i].laying.lay() == laying.lay() &&
-        all[i].laying.far() == laying.far() && all[i].as_cut == spec.as_cut &&
+    if (!all[i].cone && all[i].laying.is_like(laying) && all[i].as_cut == spec.as_cut &&
         all[i].slit == line && std::ranges::equal(all[i].chain, chain, alike))
       return i;
   const Cutting cutting{.kerf = ground.kerf, .tolerance = ground.tolerance, .as_cut = spec.as_cut};
@@ -115,8 +117,8 @@ Result<std::size_t> cone_mould_of(const Cone& cone, const Laying& laying, const 
 
 /// The moulds of a spec: near side, its cone, far side.
 Result<std::vector<std::size_t>> moulds_of(const Spec& spec, const Ground& ground,
-                                           std::vector<Mould>& all) {
-  const auto near = laying_of(spec, ground, false);
+                                           std::optional<double> over, std::vector<Mould>& all) {
+  const auto near = laying_of(spec, ground, over, false);
   if (auto issues = check_sizes(spec, near, ground.kerf); !issues.empty())
     return tl::unexpected(Error{std::move(issues)});
   TRY(const auto chain, chain_of(spec));
@@ -125,13 +127,58 @@ Result<std::vector<std::size_t>> moulds_of(const Spec& spec, const Ground& groun
   std::vector<std::size_t> out;
   for (const bool far : {false, true}) {
     if (far && spec.wall != Wall::through) continue;
-    TRY(const auto found, mould_of(spec, chain, laying_of(spec, ground, far), ground, all));
+    TRY(const auto found, mould_of(spec, chain, laying_of(spec, ground, over, far), ground, all));
     out.push_back(found);
     if (far || !spec.countersink) continue;
     TRY(const auto cone, cone_mould_of(cone_of(spec), near, ground, all));
     out.push_back(cone);
   }
   return out;
+}
+
+/// The same of each of a pattern: on a section, those that leave their flat have moulds of their
+/// own anchor.
+using MouldsOfStep = std::vector<std::size_t>;
+Result<std::vector<MouldsOfStep>> moulds_of_steps(const Spec& spec, const Ground& ground,
+                                                  const std::vector<Step>& all,
+                                                  std::vector<Mould>& moulds) {
+  std::map<std::optional<double>, MouldsOfStep> known;
+  const auto chain = chain_of(spec);
+  std::vector<MouldsOfStep> out;
+  for (const auto& step : all) {
+    const auto over =
+        ground.section && chain ? over_corner(*ground.section, spec, step, *chain) : std::nullopt;
+    auto found = known.find(over);
+    if (found == known.end()) {
+      TRY(auto made, moulds_of(spec, ground, over, moulds));
+      found = known.emplace(over, std::move(made)).first;
+    }
+    out.push_back(found->second);
+  }
+  return out;
+}
+
+void add_instances(const Spec& spec, const Ground& ground, std::size_t asked,
+                   const std::vector<Step>& steps, const std::vector<MouldsOfStep>& moulds,
+                   Layout& out) {
+  const double z = height_of(spec.at, ground), phi = spec.at.phi + (spec.at.opposite ? kPi : 0.0);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    for (const auto mould : moulds[i]) {
+      const double here = math::whole_turn(phi + steps[i].turn);
+      Instance one{.asked = asked,
+                   .name = spec.id + steps[i].suffix,
+                   .mould = mould,
+                   .phi = here,
+                   .phi_inner = here,
+                   .z = z + steps[i].along,
+                   .sunk = spec.countersink && mould == moulds[i].front()};
+      const auto& laying = out.moulds[mould].laying;
+      if (laying.over() != nullptr)
+        put_over_corner(*ground.section, *laying.over(), laying.far(), one);
+      else if (ground.section)
+        put_on_face(*ground.section, spec.at, steps[i], laying.far(), one);
+      out.instances.push_back(std::move(one));
+    }
 }
 
 /// If a file states the contour, the request has no piece to point at: points at the text, and
@@ -198,28 +245,15 @@ Result<Layout> lay(const std::vector<Spec>& specs, const Ground& ground) {
       continue;
     }
     count += many;
-    auto moulds = moulds_of(spec, ground, out.moulds);
     auto all = steps(spec.pattern);
+    auto moulds = moulds_of_steps(spec, ground, all ? *all : std::vector<Step>{Step{}}, out.moulds);
     if (!moulds) refuse(k, moulds.error());
     if (!all) refuse(k, all.error());
     if (!moulds || !all) continue;
     const auto first = out.instances.size();
-    const double z = height_of(spec.at, ground), phi = spec.at.phi + (spec.at.opposite ? kPi : 0.0);
-    for (const auto& step : *all)
-      for (const auto mould : *moulds) {
-        const double here = math::whole_turn(phi + step.turn);
-        Instance one{.asked = k,
-                     .name = spec.id + step.suffix,
-                     .mould = mould,
-                     .phi = here,
-                     .phi_inner = here,
-                     .z = z + step.along,
-                     .sunk = spec.countersink && mould == moulds->front()};
-        if (ground.section)
-          put_on_face(*ground.section, spec.at, step, out.moulds[mould].laying.far(), one);
-        out.instances.push_back(std::move(one));
-        total += out.moulds[mould].rows.phi.size();
-      }
+    add_instances(spec, ground, k, *all, *moulds, out);
+    for (auto i = first; i < out.instances.size(); ++i)
+      total += out.mould_of(out.instances[i]).rows.phi.size();
     if (ground.section)
       if (auto issue = beyond_flat(spec, out, first, *ground.section)) refuse(k, {*issue});
     if (total > kMostRows) {

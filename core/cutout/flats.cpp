@@ -32,24 +32,67 @@ Across across(const Layout& layout, const Instance& one) {
 
 }  // namespace
 
-FacePlace face_place(const section::Curve& outer, const Anchor& at) {
-  if (at.face != 0) return {at.opposite ? opposite(at.face) : at.face, at.offset};
-  const auto here = outer.at((at.phi + (at.opposite ? kPi : 0.0)) / kTwoPi * outer.girth());
-  // On a corner: its way on the outside, so that it lies beyond the flat.
+namespace {
+
+/// On a corner: its way on the outside, so that it lies beyond the flat.
+FacePlace place_at(const section::Station& here, const section::Curve& outer) {
   if (here.on_corner) return {here.face, outer.half_flat(here.face) + outer.corner() * here.along};
   return {here.face, here.along};
+}
+
+/// What does not go over a corner.
+const char* kind_of(const Spec& spec) {
+  if (spec.countersink) return "countersink";
+  return std::holds_alternative<Slit>(spec.shape) ? "slit" : "hole of this kind";
+}
+
+}  // namespace
+
+FacePlace face_place(const section::Curve& outer, const Anchor& at) {
+  if (at.face != 0) return {at.opposite ? opposite(at.face) : at.face, at.offset};
+  return place_at(outer.at((at.phi + (at.opposite ? kPi : 0.0)) / kTwoPi * outer.girth()), outer);
 }
 
 double half_flat(const section::Wall& wall, int face) {
   return std::min(wall.outer().half_flat(face), wall.bore().half_flat(face));
 }
 
-void put_on_face(const section::Wall& wall, const Anchor& at, const Step& step, bool far,
-                 Instance& one) {
-  const auto& outer = wall.outer();
+FacePlace step_place(const section::Curve& outer, const Anchor& at, const Step& step) {
   auto [face, offset] = face_place(outer, at);
   if (step.face) face = *step.face;
   offset += step.turn / kTwoPi * outer.girth();
+  // A step may leave its face.
+  if (std::abs(offset) > outer.half_flat(face) && step.turn != 0.0)
+    return place_at(outer.at(outer.on_face(face, offset)), outer);
+  return {face, offset};
+}
+
+std::optional<double> over_corner(const section::Wall& wall, const Spec& spec, const Step& step,
+                                  const Chain& chain) {
+  const bool slit = std::holds_alternative<Slit>(spec.shape);
+  if (slit || spec.countersink || spec.on_one_flat) return {};
+  const auto [face, offset] = step_place(wall.outer(), spec.at, step);
+  const auto box = bounds(chain);
+  const double half = half_flat(wall, face);
+  const double beyond =
+      std::max(offset + box.most.y() - half, -half - offset - box.least.y());
+  if (beyond <= kOnFlat) return {};
+  return wall.outer().at(wall.outer().on_face(face, offset)).s;
+}
+
+void put_over_corner(const section::Wall& wall, const SectionLay& over, bool far, Instance& one) {
+  const auto& anchor = over.anchor();
+  const auto at = place_at(anchor.outer, wall.outer());
+  one.face = at.face;
+  one.offset = at.offset;
+  one.phi = anchor.s / wall.outer().girth() * kTwoPi - (far ? kPi : 0.0);
+  one.phi_inner = anchor.s_bore / wall.bore().girth() * kTwoPi - (far ? kPi : 0.0);
+}
+
+void put_on_face(const section::Wall& wall, const Anchor& at, const Step& step, bool far,
+                 Instance& one) {
+  const auto& outer = wall.outer();
+  const auto [face, offset] = step_place(outer, at, step);
   one.face = far ? opposite(face) : face;
   one.offset = far ? -offset : offset;
   one.phi = share_of(outer, one.face, one.offset, far);
@@ -68,6 +111,7 @@ std::optional<Issue> beyond_flat(const Spec& spec, const Layout& layout, std::si
   const bool by_face = spec.at.face != 0;
   for (auto i = first; i < layout.instances.size(); ++i) {
     const auto& one = layout.instances[i];
+    if (layout.mould_of(one).laying.over() != nullptr) continue;
     const auto reach = across(layout, one);
     const double half = half_flat(wall, one.face);
     const double beyond = std::max(reach.to - half, -half - reach.from);
@@ -76,7 +120,7 @@ std::optional<Issue> beyond_flat(const Spec& spec, const Layout& layout, std::si
     Issue out{.code = ErrorCode::out_of_range,
               .hint = one.name + " reaches " + brief(beyond) + " mm beyond " + face +
                       ", which is " + brief(2.0 * half) +
-                      " mm wide; no cut-out goes over a corner"};
+                      " mm wide; no " + kind_of(spec) + " goes over a corner"};
     if (reach.to - reach.from > 2.0 * half) {
       out.member = layout.mould_of(one).cone ? "countersink/diameter" : "shape";
       out.got = reach.to - reach.from;

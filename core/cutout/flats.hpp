@@ -4,7 +4,7 @@
 
 #include "core/cutout/cutout.hpp"
 
-/// Cut-outs on the flats of a section.
+/// Cut-outs on the flats of a section, and which of them leave these.
 namespace tubecut::cutout {
 
 struct FacePlace {
@@ -13,6 +13,17 @@ struct FacePlace {
 };
 /// Returns the face of an anchor, or that before its corner.
 [[nodiscard]] FacePlace face_place(const section::Curve& outer, const Anchor& at);
+
+/// Returns the face of one of a pattern, `step` from its anchor, and its place there.
+[[nodiscard]] FacePlace step_place(const section::Curve& outer, const Anchor& at, const Step& step);
+
+/// Returns s of the anchor of an instance whose chain does not lie within the anchor's flat, on the
+/// outside and on the bore; nothing of one that does, and of one that has to.
+[[nodiscard]] std::optional<double> over_corner(const section::Wall& wall, const Spec& spec,
+                                                const Step& step, const Chain& chain);
+
+/// Places an instance over corners: its face, and its phases.
+void put_over_corner(const section::Wall& wall, const SectionLay& over, bool far, Instance& one);
 
 /// Places an instance, `step` from its anchor: its face and the offset there, its phases on the
 /// outside and on the bore. On the far side, it lies straight across.

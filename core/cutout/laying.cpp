@@ -75,19 +75,60 @@ double around(const Chain& chain, const Integrand& of, double rho) {
   return std::abs(sum);
 }
 
+Taken taken_over(const SectionLay& lay, const Chain& chain) {
+  static const auto kRule = math::gauss_legendre(kGaussPoints);
+  const double none = lay.area(0.0);  // an area of the wall, not from the datum
+  Taken out;
+  for (const auto& s : divided(chain, lay.breaks())) {
+    const auto shares = cells(s);
+    for (std::size_t i = 0; i + 1 < shares.size(); ++i)
+      for (std::size_t k = 0; k < kRule.nodes.size(); ++k) {
+        const double part = shares[i + 1] - shares[i];
+        const double share = shares[i] + 0.5 * (1.0 + kRule.nodes[k]) * part;
+        const double da = s.along(share).x() * s.length() * 0.5 * kRule.weights[k] * part;
+        const double b = s.at(share).y();
+        out.outer_area += lay.way(b, true) * da;
+        out.inner_area += lay.way(b, false) * da;
+        out.volume += (lay.area(b) - none) * da;
+      }
+  }
+  return {std::abs(out.outer_area), std::abs(out.inner_area), std::abs(out.volume)};
+}
+
 }  // namespace
 
 double Laying::turn(double b, double rho) const {
+  if (over_) return over_->way(b, rho != inner_) / rho;
   if (lay_ == Lay::developed) return b / outer_;
   if (lay_ == Lay::flat) return b / rho;
   return elementary::asin(std::clamp(b / (lay_ == Lay::prism ? rho : inner_), -1.0, 1.0));
 }
 
 double Laying::stretch(double b) const {
+  if (over_) return over_->rates(b).outer;
   return lay_ == Lay::bored ? outer_ / root(inner_, b) : 1.0;
 }
 
+double Laying::lean(double b) const {
+  if (lay_ != Lay::prism) return far_ ? 0.0 : -0.0;
+  if (over_) return 0.0 - over_->lean(b);
+  const double lean = elementary::asin(b / outer_);
+  return far_ ? lean : -lean;
+}
+
+double Laying::square_on_bore(double way) const {
+  if (over_) return over_->way_on_bore(way) / inner_;
+  // On a flat both surfaces have the same way.
+  return way / (lay_ == Lay::flat ? inner_ : outer_);
+}
+
+bool Laying::is_like(const Laying& other) const {
+  if (lay_ != other.lay_ || far_ != other.far_ || !over_ != !other.over_) return false;
+  return !over_ || over_->s_of_spec() == other.over_->s_of_spec();
+}
+
 Taken taken(const Laying& laying, const Chain& chain) {
+  if (laying.over() != nullptr) return taken_over(*laying.over(), chain);
   const double outer = laying.outer(), inner = laying.inner(), wall = outer - inner;
   const double square = wall * (1.0 - 0.5 * wall / outer);  // volume of a square wall, per area
   if (laying.lay() == Lay::developed) {
@@ -111,7 +152,9 @@ double removed(const Laying& laying, const Chain& chain, double at) {
   const double outer = laying.outer(), inner = laying.inner();
   double sum = 0.0;
   for (const auto& [from, to] : stretches(chain, at)) {
-    if (laying.lay() == Lay::flat)
+    if (laying.over() != nullptr)
+      sum += std::abs(laying.over()->area(to) - laying.over()->area(from));
+    else if (laying.lay() == Lay::flat)
       sum += (to - from) * laying.wall();
     else if (laying.lay() == Lay::prism)
       sum += under(outer).t(to) - under(outer).t(from) - under(inner).t(to) + under(inner).t(from);

@@ -1,19 +1,14 @@
 #pragma once
 
+#include <memory>
+
 #include "core/base/angle.hpp"
 #include "core/cutout/chain.hpp"
+#include "core/cutout/section_lay.hpp"
 #include "core/joint/target.hpp"
 #include "core/section/section.hpp"
 
 namespace tubecut::cutout {
-
-/// How a local plane lies on a tube, about its anchor.
-enum class Lay {
-  developed,  // on the outside, the wall square to it: b is way round the outside
-  prism,      // straight along the anchor's normal
-  bored,  // the prism's edge on the bore, the wall square from there: a torch that does not tilt
-  flat,   // on one face of a section: the same shape on the outside and on the bore
-};
 
 /// Lays a chain on one side of a tube. Phases count from the anchor's own. On a section, a phase is
 /// the share of a girth in rad, and a radius that of the circle of this girth.
@@ -32,27 +27,46 @@ class Laying {
         wall_(section.wall),
         lay_(Lay::flat),
         far_(far) {}
+  /// Over corners of a section; `s`: of the anchor on the near side.
+  Laying(const section::Wall& wall, double s, Lay lay, bool far)
+      : outer_(wall.outer().girth() / kTwoPi),
+        inner_(wall.bore().girth() / kTwoPi),
+        wall_(wall.section().wall),
+        lay_(lay),
+        far_(far),
+        over_(std::make_shared<const SectionLay>(wall, s, lay, far)) {}
 
   [[nodiscard]] double outer() const { return outer_; }
   [[nodiscard]] double inner() const { return inner_; }
   [[nodiscard]] double wall() const { return wall_; }
   [[nodiscard]] Lay lay() const { return lay_; }
   [[nodiscard]] bool far() const { return far_; }
+  /// Of one that reaches over corners, else nullptr.
+  [[nodiscard]] const SectionLay* over() const { return over_.get(); }
+  /// Returns true if the same chain has the same rows about its anchor.
+  [[nodiscard]] bool is_like(const Laying& other) const;
   /// Returns true if the walls of the cut-out are parallel, so that the beam is offset in the local
   /// plane.
   [[nodiscard]] bool parallel() const { return lay_ == Lay::prism || lay_ == Lay::flat; }
 
-  /// Way round from the anchor's generator, rad, before the side counts: of b, on the radius rho.
+  /// Way round from the anchor's generator, rad, before the side counts: of b, on the radius rho,
+  /// which over corners is that of the outside or of the bore.
   [[nodiscard]] double turn(double b, double rho) const;
   /// Phase from the anchor's, on its own side or the opposite one.
   [[nodiscard]] double phase(double turn) const { return far_ ? kPi - turn : turn; }
   /// How much a step of b is longer on the developed outside.
   [[nodiscard]] double stretch(double b) const;
+  /// The torch's lean across on a prism at b, rad: `a` of the rows.
+  [[nodiscard]] double lean(double b) const;
+  /// Phase on the bore of a beam square to the outside whose axis lies a way round from the anchor
+  /// there, mm.
+  [[nodiscard]] double square_on_bore(double way) const;
 
  private:
   double outer_, inner_, wall_;
   Lay lay_;
   bool far_;
+  std::shared_ptr<const SectionLay> over_ = {};
 };
 
 /// What a chain takes, each by a closed form or, along arcs, by Gauss.

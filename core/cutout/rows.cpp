@@ -33,6 +33,7 @@ struct Row {
 struct Run {
   std::vector<Row> rows;
   Flat first_normal, last_normal;
+  Flat first_along, last_along;
   bool lost = false;  // the beam does not reach into it
   std::size_t piece = 0;
 };
@@ -40,7 +41,9 @@ struct Run {
 class Maker {
  public:
   Maker(const Laying& laying, const Chain& chain, const Cutting& cutting)
-      : laying_(laying), chain_(chain), cutting_(cutting) {}
+      : laying_(laying),
+        chain_(laying.over() != nullptr ? divided(chain, laying.over()->breaks()) : chain),
+        cutting_(cutting) {}
 
   Result<std::vector<Row>> make();
 
@@ -49,14 +52,34 @@ class Maker {
     if (laying_.lay() != Lay::bored) return p;
     return {p.x(), laying_.outer() * laying_.turn(p.y(), laying_.outer())};
   }
-  /// Towards the part, in the plane of the offset.
+  [[nodiscard]] bool over_square() const {
+    return laying_.over() != nullptr && !laying_.parallel() && cutting_.kerf > 0.0;
+  }
+  /// Towards the part, in the plane of the offset; over corners, where the beam touches.
   [[nodiscard]] Flat normal(const Segment& s, double share) const {
     const auto along = s.along(share);
-    return Flat(along.y() * laying_.stretch(s.at(share).y()), -along.x()).normalized();
+    const auto p = s.at(share);
+    if (laying_.over() == nullptr || laying_.parallel())
+      return Flat(along.y() * (laying_.parallel() ? 1.0 : laying_.stretch(p.y())), -along.x())
+          .normalized();
+    const Flat here(p.x(), inside(s, p.y()));
+    const Flat m = Flat(along.y() * laying_.stretch(here.y()), -along.x()).normalized();
+    return over_square() ? laying_.over()->contact(plane(here).y(), m, cutting_.kerf) : m;
+  }
+  /// The torch's axis for a place of the edge with such a normal.
+  [[nodiscard]] Flat axis(const Flat& edge, const Flat& normal) const {
+    const Flat at = plane(edge);
+    if (!over_square()) return at + kerf_offset(laying_, cutting_.kerf, normal);
+    const double half = 0.5 * cutting_.kerf;
+    return {at.x() - half * normal.x(), laying_.over()->axis(at.y(), half * normal.y())};
   }
   [[nodiscard]] Flat on_wall(const Flat& p, double rho) const {
     return {p.x(), rho * laying_.turn(p.y(), rho)};
   }
+  /// The least radius of a hollow for the beam along an arc over corners.
+  [[nodiscard]] double least_of(const Segment& s) const;
+  /// How far the torch's line and the edges, over corners, bend off the straight way.
+  [[nodiscard]] double torch_off(const Segment& s, double from, double to) const;
   void halve(const Segment& s, double from, double to, double within, int depth,
              std::vector<double>& out) const;
   [[nodiscard]] std::vector<double> shares(const Segment& s) const;
@@ -65,9 +88,27 @@ class Maker {
   void round_corner(Run& before, const Run& after) const;
 
   const Laying& laying_;
-  const Chain& chain_;
+  Chain chain_;
   const Cutting& cutting_;
 };
+
+double Maker::least_of(const Segment& s) const {
+  constexpr int kPlaces = 16;
+  double out = 0.0;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double b = inside(s, s.at(static_cast<double>(i) / kPlaces).y());
+    out = std::max(out, least_radius(laying_, cutting_.kerf, b));
+  }
+  return out;
+}
+
+double Maker::torch_off(const Segment& s, double from, double to) const {
+  const auto at = [&](double share) { return axis(s.at(share), normal(s, share)); };
+  const Flat a = at(from), way = at(to) - a;
+  const double length = way.norm();
+  if (!(length > 0.0)) return 0.0;
+  return std::abs(cross(way, at(0.5 * (from + to)) - a)) / length;
+}
 
 void Maker::halve(const Segment& s, double from, double to, double within, int depth,
                   std::vector<double>& out) const {
@@ -80,6 +121,7 @@ void Maker::halve(const Segment& s, double from, double to, double within, int d
       if (length > 0.0) off = std::max(off, std::abs(cross(way, p)) / length);
     }
   }
+  if (laying_.over() != nullptr) off = std::max(off, torch_off(s, from, to));
   if (off <= within || depth == kDeepest) return out.push_back(to);
   const double middle = 0.5 * (from + to);
   halve(s, from, middle, within, depth + 1, out);
@@ -98,16 +140,23 @@ std::vector<double> Maker::shares(const Segment& s) const {
 }
 
 Run Maker::run(const Segment& s) const {
-  Run out{
-      .rows = {}, .first_normal = normal(s, 0.0), .last_normal = normal(s, 1.0), .piece = s.piece};
+  Run out{.rows = {},
+          .first_normal = normal(s, 0.0),
+          .last_normal = normal(s, 1.0),
+          .first_along = s.along(0.0),
+          .last_along = s.along(1.0),
+          .piece = s.piece};
   for (const double share : shares(s)) {
     const auto p = s.at(share);
-    out.rows.push_back({p, plane(p) + kerf_offset(laying_, cutting_.kerf, normal(s, share))});
+    out.rows.push_back({p, axis(p, normal(s, share))});
   }
   if (!s.arc() || !s.hollow()) return out;
   double most = 0.0;
   for (const auto& row : out.rows) most = std::max(most, std::abs(row.edge.y()));
-  out.lost = s.radius < least_radius(laying_, cutting_.kerf, most) * (1.0 - 1e-9);
+  const double least = laying_.over() != nullptr
+                           ? least_of(s)
+                           : least_radius(laying_, cutting_.kerf, most);
+  out.lost = s.radius < least * (1.0 - 1e-9);
   return out;
 }
 
@@ -141,7 +190,7 @@ void Maker::round_corner(Run& before, const Run& after) const {
   for (int i = 1; i < parts; ++i) {
     const auto [sin, cos] = elementary::sincos(angle * i / parts);
     const Flat m(cos * from.x() - sin * from.y(), sin * from.x() + cos * from.y());
-    before.rows.push_back({edge, plane(edge) + kerf_offset(laying_, cutting_.kerf, m)});
+    before.rows.push_back({edge, axis(edge, m)});
   }
 }
 
@@ -155,7 +204,10 @@ Result<void> Maker::join(Run& before, Run& after) const {
     return {};
   }
   // Coordinates of a drawing are rounded, so that its tangent pieces meet at a small angle.
-  const bool smooth = 0.5 * cutting_.kerf * (1.0 - elementary::cos(angle)) <= kLeft;
+  // Where an edge crosses a seam, only its line on the bore has a corner.
+  const bool at_seam = laying_.over() != nullptr && !laying_.parallel() &&
+                       std::abs(cross(before.last_along, after.first_along)) < kSmooth;
+  const bool smooth = at_seam || 0.5 * cutting_.kerf * (1.0 - elementary::cos(angle)) <= kLeft;
   if (!cutting_.as_cut && !smooth)
     return fail({.code = ErrorCode::out_of_range,
                  .member = "pieces/" + std::to_string(before.piece),
@@ -184,8 +236,10 @@ Result<std::vector<Row>> Maker::make() {
       return fail({.code = ErrorCode::out_of_range,
                    .member = "pieces/" + std::to_string(last.piece),
                    .got = s.radius,
-                   .limit = least_radius(laying_, cutting_.kerf,
-                                         std::max(std::abs(s.from.y()), std::abs(s.to.y()))),
+                   .limit = laying_.over() != nullptr
+                                ? least_of(s)
+                                : least_radius(laying_, cutting_.kerf,
+                                               std::max(std::abs(s.from.y()), std::abs(s.to.y()))),
                    .unit = "mm",
                    .hint = "a hollow tighter than the kerf; corners as_cut accepts it"});
     if (!last.lost) live.push_back(runs.size() - 1);
@@ -229,8 +283,13 @@ Result<void> check_line(const std::vector<Row>& rows) {
 }  // namespace
 
 double least_radius(const Laying& laying, double kerf, double b) {
-  const double ratio = laying.outer() / laying.inner();
   if (laying.parallel()) return 0.5 * kerf;
+  if (const auto* over = laying.over()) {
+    const auto rates = over->rates(b);
+    const double ratio = rates.outer / rates.bore;
+    return 0.5 * kerf * (laying.lay() == Lay::developed ? ratio * ratio : rates.bore);
+  }
+  const double ratio = laying.outer() / laying.inner();
   if (laying.lay() == Lay::developed) return 0.5 * kerf * ratio * ratio;
   return 0.5 * kerf * laying.stretch(b) / ratio;
 }
@@ -258,13 +317,12 @@ Result<bevel::Hole> rows(const Laying& laying, const Chain& chain, const Cutting
     out.phi.push_back(laying.phase(laying.turn(edge.y(), outer)));
     out.phi_inner.push_back(laying.phase(laying.turn(edge.y(), inner)));
     out.z.push_back(edge.x());
-    const double lean = prism ? elementary::asin(torch.y() / outer) : 0.0;
-    // The axis of a beam that is square to the wall.
-    const double bore = laying.lay() == Lay::flat ? inner : outer;
-    out.a.push_back(laying.far() ? lean : -lean);
-    out.torch_phi.push_back(laying.phase(prism ? lean : torch.y() / outer));
-    out.torch_phi_inner.push_back(
-        laying.phase(prism ? elementary::asin(torch.y() / inner) : torch.y() / bore));
+    out.a.push_back(laying.lean(torch.y()));
+    out.torch_phi.push_back(
+        laying.phase(prism ? laying.turn(torch.y(), outer) : torch.y() / outer));
+    // The axis of a beam that is square to the wall, or along the prism.
+    out.torch_phi_inner.push_back(laying.phase(
+        prism ? laying.turn(torch.y(), inner) : laying.square_on_bore(torch.y())));
     out.torch_z.push_back(torch.x());
   }
   out.z_inner = out.z;

@@ -43,7 +43,8 @@ struct Sizes {
   /// bore's width that a beam square to the wall is wider there than the shape.
   [[nodiscard]] std::vector<Issue> near_bore(double reach, double narrowest) const {
     constexpr int kHalvings = 60;
-    const bool here = laying.lay() == Lay::bored && reach < laying.inner();
+    const bool here =
+        laying.lay() == Lay::bored && laying.over() == nullptr && reach < laying.inner();
     if (!here || width(reach) < narrowest || !(width(0.0) < narrowest)) return {};
     double low = 0.0, high = reach;
     for (int i = 0; i < kHalvings; ++i) {
@@ -160,11 +161,43 @@ struct Middle {
 }  // namespace
 
 std::vector<Issue> check_sizes(const Spec& spec, const Laying& laying, double kerf) {
+  if (const auto* over = laying.over(); over != nullptr && !laying.parallel()) {
+    const double most = over->most_kerf();
+    if (kerf >= most)
+      return {{.code = ErrorCode::out_of_range,
+               .member = "shape",
+               .got = kerf,
+               .limit = rounded_down(most),
+               .unit = "mm",
+               .hint = "over a corner so tight, a beam square to the outside and as wide as the "
+                       "kerf cuts into the next face; cut it by wall normal with tilt free"}};
+  }
   return std::visit(Sizes{spec, laying, kerf}, spec.shape);
 }
 
+namespace {
+
+/// Over corners, a prism's lines cross the bore, to each side of an anchor of its own.
+std::vector<Issue> check_open_over(const Bounds& box, const SectionLay& over) {
+  const auto reach = over.reach();
+  const double more = box.most.y() - (reach.most.y() - kInside);
+  const double less = reach.least.y() + kInside - box.least.y();
+  if (more <= 0.0 && less <= 0.0) return {};
+  return {{.code = ErrorCode::open_profile,
+           .member = "shape",
+           .got = more > less ? box.most.y() : -box.least.y(),
+           .limit = rounded_down((more > less ? reach.most.y() : -reach.least.y()) - kInside),
+           .unit = "mm",
+           .hint = "to one side of its anchor it reaches beyond the bore, seen along the anchor's "
+                   "normal; lay it on the wall by wall developed, or make it less wide"}};
+}
+
+}  // namespace
+
 std::vector<Issue> check_open(const Chain& chain, const Laying& laying) {
   const auto box = bounds(chain);
+  if (laying.over() != nullptr && laying.lay() != Lay::developed)
+    return check_open_over(box, *laying.over());
   if (laying.lay() == Lay::developed) {
     const double round = box.most.y() - box.least.y(), girth = kTwoPi * laying.outer();
     if (round < girth) return {};

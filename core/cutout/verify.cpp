@@ -69,6 +69,45 @@ double off_face(const Layout& layout, const Instance& one, const section::Wall& 
   return worst;
 }
 
+/// A place of a mould over corners, by the section's own outlines: `phase` from its anchor.
+Vector3d on_section(const Mould& mould, bool outer, double phase, double z) {
+  const auto& over = *mould.laying.over();
+  const auto& curve = outer ? over.wall().outer() : over.wall().bore();
+  const double rho = outer ? mould.laying.outer() : mould.laying.inner();
+  const double from = (outer ? over.anchor().s : over.anchor().s_bore) -
+                      (mould.laying.far() ? kPi * rho : 0.0);
+  const auto p = curve.at(from + rho * phase).point;
+  return {p.x(), p.y(), z};
+}
+
+/// How far the rows of a mould over corners are off: a prism's along the anchor's normal from its
+/// chain, else square to the outside.
+double off_over(const Mould& mould) {
+  const auto& laying = mould.laying;
+  const auto& over = *laying.over();
+  const auto& rows = mould.rows;
+  const auto from = over.wall().outer().at(over.s_of_spec());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < rows.phi.size(); ++i) {
+    const auto outer = on_section(mould, true, rows.phi[i], rows.z[i]);
+    const auto inner = on_section(mould, false, rows.phi_inner[i], rows.z_inner[i]);
+    const auto off = [&](const Vector3d& p) {
+      return distance(mould.chain, {p.z(), (p.head<2>() - from.point).dot(from.tangent())});
+    };
+    const double s = over.anchor().s + laying.outer() * (rows.phi[i] - (laying.far() ? kPi : 0.0));
+    const Eigen::Vector2d n = over.wall().outer().at(s).normal;
+    const Eigen::Vector2d line = (outer - inner).head<2>();
+    const double leans = line.x() * n.y() - line.y() * n.x();
+    if (laying.lay() == Lay::prism) worsen(worst, worst_of({off(outer), off(inner)}));
+    if (laying.lay() == Lay::bored) worsen(worst, worst_of({off(inner), std::abs(leans)}));
+    if (laying.lay() == Lay::developed) {
+      const double b = over.sense() * (s - over.anchor().s);
+      worsen(worst, worst_of({distance(mould.chain, {rows.z[i], b}), std::abs(leans)}));
+    }
+  }
+  return worst;
+}
+
 /// Places of the finished edge on both walls and between them.
 std::vector<Vector3d> wall_places(const Mould& mould) {
   double length = 0.0;
@@ -81,6 +120,12 @@ std::vector<Vector3d> wall_places(const Mould& mould) {
     for (int i = 0; i < parts; ++i) {
       const auto p = s.at(static_cast<double>(i) / parts);
       for (const double share : {0.0, 0.5, 1.0}) {
+        if (const auto* over = mould.laying.over()) {
+          const auto at = over->at(p.y());
+          const Eigen::Vector2d q = at.bore.point + share * (at.outer.point - at.bore.point);
+          out.emplace_back(q.x(), q.y(), p.x());
+          continue;
+        }
         const double rho =
             mould.laying.inner() + share * (mould.laying.outer() - mould.laying.inner());
         if (mould.laying.lay() == Lay::flat)
@@ -107,16 +152,20 @@ double gouge(const Mould& mould, double kerf) {
       const auto mixed = [&](const std::vector<double>& of) {
         return (1.0 - share) * of[i] + share * of[j];
       };
-      const auto from =
-          in_space(mould.laying, false, mixed(r.torch_phi_inner), mixed(r.torch_z_inner));
-      const auto head = in_space(mould.laying, true, mixed(r.torch_phi), mixed(r.torch_z));
+      const auto place = [&](bool outer, double phi, double z) {
+        return mould.laying.over() != nullptr ? on_section(mould, outer, phi, z)
+                                              : in_space(mould.laying, outer, phi, z);
+      };
+      const auto from = place(false, mixed(r.torch_phi_inner), mixed(r.torch_z_inner));
+      const auto head = place(true, mixed(r.torch_phi), mixed(r.torch_z));
       const Vector3d way = (head - from).normalized();
       double nearest = 0.25 * kerf * kerf;
       for (const auto& p : places) {
         if (this_side && p.tail<2>().dot(head.tail<2>()) < 0.0) continue;
         const Vector3d off = p - from;
         const double along = off.dot(way);
-        if (along < -mould.laying.inner()) continue;  // the edge on the opposite side of the tube
+        // The edge on the opposite side of the tube; over corners, where the beam is spent.
+        if (along < -(mould.laying.over() != nullptr ? kerf : mould.laying.inner())) continue;
         nearest = std::min(nearest, off.squaredNorm() - along * along);
       }
       worsen(worst, 0.5 * kerf - std::sqrt(std::max(0.0, nearest)));
@@ -138,12 +187,31 @@ double around_flat(const Chain& chain, const math::GaussRule& rule) {
   return std::abs(sum);
 }
 
+/// The volume by the wall's depth at each b.
+double over_by_depths(const Mould& mould, const math::GaussRule& rule) {
+  const auto& over = *mould.laying.over();
+  double sum = 0.0;
+  for (const auto& s : divided(mould.chain, over.breaks())) {
+    const auto shares = cells(s);
+    for (std::size_t i = 0; i + 1 < shares.size(); ++i)
+      for (std::size_t g = 0; g < rule.nodes.size(); ++g) {
+        const double part = shares[i + 1] - shares[i];
+        const double share = shares[i] + 0.5 * (1.0 + rule.nodes[g]) * part;
+        const auto p = s.at(share);
+        sum += 0.5 * rule.weights[g] * part * s.length() * s.along(share).y() * p.x() *
+               over.depth(p.y());
+      }
+  }
+  return std::abs(sum);
+}
+
 }  // namespace
 
 double volume_by_rings(const Mould& mould) {
   if (mould.cone) return cone_by_rings(mould.laying, *mould.cone);
   static const auto kAcross = math::gauss_legendre(kRings), kAlong = math::gauss_legendre(kGauss);
   const double inner = mould.laying.inner(), outer = mould.laying.outer();
+  if (mould.laying.over() != nullptr) return over_by_depths(mould, kAlong);
   if (mould.laying.lay() == Lay::flat)
     return around_flat(mould.chain, kAlong) * mould.laying.wall();
   std::vector<std::vector<double>> pieces;
@@ -190,9 +258,12 @@ double volume_by_rings(const Layout& layout) {
 std::vector<Check> verify(const Layout& layout, const Ground& ground) {
   double edge = 0.0, deepest = 0.0, volume = 0.0;
   for (const auto& one : layout.instances)
-    if (ground.section) worsen(edge, off_face(layout, one, *ground.section));
+    if (ground.section && layout.mould_of(one).laying.over() == nullptr)
+      worsen(edge, off_face(layout, one, *ground.section));
   for (const auto& mould : layout.moulds) {
-    for (std::size_t i = 0; i < mould.rows.phi.size(); ++i) worsen(edge, off_chain(mould, i));
+    if (mould.laying.over() != nullptr) worsen(edge, off_over(mould));
+    for (std::size_t i = 0; i < mould.rows.phi.size() && mould.laying.over() == nullptr; ++i)
+      worsen(edge, off_chain(mould, i));
     if (ground.kerf > 0.0) worsen(deepest, gouge(mould, ground.kerf));
     worsen(volume, std::abs(mould.taken.volume / volume_by_rings(mould) - 1.0));
   }

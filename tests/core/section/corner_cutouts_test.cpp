@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/cutout/rows.hpp"
+#include "core/part/section/section_part.hpp"
+#include "tests/core/cutout/square_ends.hpp"
+#include "tests/core/section/golden_ends.hpp"
+
+/// Cut-outs over corners of tubes that are not round: an independent program, distances to the
+/// section, a round tube, and the same part drawn in another way.
+namespace tubecut::testing::corners {
+namespace {
+
+using namespace cutout;
+using api::Json;
+using Eigen::Vector2d;
+using Random = std::mt19937;
+
+double between(Random& random, double from, double to) {
+  return std::uniform_real_distribution<double>(from, to)(random);
+}
+
+section::Section drawn_section(Random& random) {
+  const double height = between(random, 60, 160), width = between(random, 60, 160);
+  const double wall = between(random, 2.5, 6.0);
+  const auto radii = section::corner_radii(static_cast<section::Standard>(random() % 3), wall);
+  return {height, width, wall, radii.outer, radii.inner};
+}
+
+part::SectionPartSpec plain_part(const section::Section& section, std::vector<Spec> cutouts,
+                                 double kerf = 0.3) {
+  part::SectionPartSpec out{.section = section, .length = 1000.0};
+  testing::make_ends_square(out);
+  out.cutouts.all = std::move(cutouts);
+  out.cutouts.kerf = kerf;
+  return out;
+}
+
+double share_of(const section::Section& section, double s) {
+  return s / section.outer().girth() * kTwoPi;
+}
+
+/// Signed, of a rectangle with round corners.
+double distance_to(double height, double width, double radius, const Vector2d& p) {
+  const Vector2d q = p.cwiseAbs() - Vector2d(0.5 * height - radius, 0.5 * width - radius);
+  return q.cwiseMax(0.0).norm() + std::min(std::max(q.x(), q.y()), 0.0) - radius;
+}
+double outside(const section::Section& s, const Vector2d& p) {
+  return distance_to(s.height, s.width, s.corner, p);
+}
+double in_bore(const section::Section& s, const Vector2d& p) {
+  return distance_to(s.height - 2 * s.wall, s.width - 2 * s.wall, s.inner_corner, p);
+}
+/// How far from `from`, which lies within, a line leaves what `off` is negative in.
+template <class F>
+double leaves(const Vector2d& from, const Vector2d& way, const F& off) {
+  double low = 0.0, high = 500.0;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (off(from + middle * way) < 0.0 ? low : high) = middle;
+  }
+  return low;
+}
+
+Vector2d point_at(const section::Curve& curve, double phi) {
+  return curve.at(phi / kTwoPi * curve.girth()).point;
+}
+
+void expect_passed(const std::vector<Check>& checks, const std::string& what) {
+  for (const auto& check : checks)
+    EXPECT_LE(check.value, check.limit) << check.name << " of " << what;
+}
+
+TEST(CornerCutouts, AreThoseOfAnIndependentProgram) {
+  const auto all = golden("cutouts.json");
+  int made = 0, torches = 0;
+  for (const auto& one : *at(all, "cutouts").as<Json::Array>()) {
+    if (*at(one, "section/round").as<bool>()) continue;
+    const auto section = golden_section(at(one, "section"));
+    Spec spec{.id = text(one, "name"), .shape = Circle{20.0}};
+    if (text(one, "shape/kind") == "circle") spec.shape = Circle{number(one, "shape/diameter_mm")};
+    if (text(one, "shape/kind") == "slot")
+      spec.shape = Slot{number(one, "shape/length_mm"), number(one, "shape/width_mm")};
+    if (text(one, "shape/kind") == "rectangle")
+      spec.shape = Rectangle{number(one, "shape/along_mm"), number(one, "shape/round_mm"),
+                             number(one, "shape/corner_radius_mm")};
+    spec.turn = number(one, "angle_deg") * kRadPerDeg;
+    spec.at.z = number(one, "at/z_mm");
+    spec.at.phi = share_of(section, number(one, "at/s_mm"));
+    spec.tilt = bevel::Tilt::free;
+    const auto kind = text(one, "wall");
+    spec.wall = kind == "through"     ? Wall::through
+                : kind == "developed" ? Wall::developed
+                                      : Wall::normal;
+    const section::Wall wall(section);
+    const auto layout = lay({spec}, {.tube = {.wall = section.wall}, .section = wall});
+    ASSERT_TRUE(layout) << spec.id << layout.error().issues.front().hint;
+    const bool far = text(one, "side") == "far";
+    const auto& instance = layout->instances[far ? 1 : 0];
+    const auto& mould = layout->mould_of(instance);
+    const auto* over = mould.laying.over();
+    EXPECT_NEAR(mould.taken.outer_area / number(one, "area_outer"), 1.0, 1e-9) << spec.id;
+    EXPECT_NEAR(mould.taken.inner_area / number(one, "area_inner"), 1.0, 1e-9) << spec.id;
+    EXPECT_NEAR(mould.taken.volume / number(one, "volume"), 1.0, 1e-9) << spec.id;
+    if (over == nullptr) continue;
+    ++made;
+    const auto& local = *at(one, "local").as<Json::Array>();
+    for (std::size_t i = 0; i < local.size(); ++i)
+      for (const bool outer : {true, false}) {
+        const auto place = over->at(number(local[i], "1"));
+        const auto& p = outer ? place.outer.point : place.bore.point;
+        const auto& wanted = (*at(one, outer ? "outer" : "inner").as<Json::Array>())[i];
+        EXPECT_NEAR(p.x(), number(wanted, "0"), 1e-9) << spec.id;
+        EXPECT_NEAR(p.y(), number(wanted, "1"), 1e-9) << spec.id;
+        EXPECT_NEAR(instance.z + number(local[i], "0"), number(wanted, "2"), 1e-9);
+      }
+    if (kind != "developed" || one.as<Json::Object>() == nullptr) continue;
+    if (text(one, "name") != "box_hole_in_corner") continue;
+    ++torches;
+    const double kerf = number(one, "torch/kerf");
+    const auto& edges = *at(one, "torch/edge_local").as<Json::Array>();
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Flat edge(number(edges[i], "0"), number(edges[i], "1"));
+      const Flat m = over->contact(edge.y(), edge.normalized(), kerf);
+      const auto& axis = (*at(one, "torch/axis_local").as<Json::Array>())[i];
+      EXPECT_NEAR(edge.x() - 0.5 * kerf * m.x(), number(axis, "0"), 1e-9);
+      EXPECT_NEAR(over->axis(edge.y(), 0.5 * kerf * m.y()), number(axis, "1"), 1e-9);
+    }
+  }
+  EXPECT_EQ(made, 7);
+  EXPECT_EQ(torches, 1);
+}
+
+Spec drawn_cutout(Random& random, const section::Section& section) {
+  Spec out{.id = "c", .shape = Circle{between(random, 10.0, 30.0)}};
+  const double width = between(random, 10.0, 20.0);
+  if (random() % 3 == 0) out.shape = Slot{width + between(random, 0.0, 30.0), width};
+  if (random() % 3 == 0)
+    out.shape = Rectangle{between(random, 10.0, 40.0), between(random, 10.0, 30.0), 2.0};
+  out.turn = random() % 2 == 0 ? 0.0 : between(random, -3.0, 3.0);
+  const auto outer = section.outer();
+  const double corner = outer.on_corner(static_cast<int>(random() % 4) + 1, 0.25 * kPi);
+  out.at.z = 200.0;
+  out.at.phi = share_of(section, corner + (random() % 3 == 0 ? 0.0 : between(random, -25, 25)));
+  out.tilt = random() % 2 == 0 ? bevel::Tilt::free : bevel::Tilt::axial;
+  out.wall = static_cast<Wall>(random() % 3);
+  return out;
+}
+
+/// Returns true if the rows lie on the prism and the surfaces, by distances.
+void expect_on_prism(const section::Section& section, const Spec& spec, const Layout& layout,
+                     const Instance& one) {
+  const auto& mould = layout.mould_of(one);
+  const auto rows = placed(layout, one);
+  const auto anchor = section.outer().at(spec.at.phi / kTwoPi * section.outer().girth());
+  const double side = mould.laying.far() ? -1.0 : 1.0;
+  for (std::size_t i = 0; i < rows.phi.size(); ++i) {
+    const auto p = point_at(section.outer(), rows.phi[i]);
+    const auto q = point_at(section.bore(), rows.phi_inner[i]);
+    EXPECT_NEAR(outside(section, p), 0.0, 1e-9);
+    EXPECT_NEAR(in_bore(section, q), 0.0, 1e-9);
+    const double b = (q - anchor.point).dot(anchor.tangent());
+    EXPECT_LT(distance(mould.chain, {rows.z_inner[i] - one.z, b}), 1e-9);
+    // The outermost place of its line.
+    const Vector2d axis = b * anchor.tangent() +
+                          anchor.point.dot(anchor.tangent()) * anchor.tangent();
+    const Vector2d way = side * anchor.normal;
+    const Vector2d in = q - way * 1e-7;
+    EXPECT_LT((in + leaves(in, way, [&](const Vector2d& r) { return in_bore(section, r); }) * way -
+               q)
+                  .norm(),
+              2e-6);
+    if (mould.laying.lay() == Lay::prism) {
+      EXPECT_NEAR((p - anchor.point).dot(anchor.tangent()), b, 1e-9);
+      const auto at = section.outer().at(rows.torch_phi[i] / kTwoPi * section.outer().girth());
+      const Vector2d beam(std::cos(at.nu + rows.a[i]), std::sin(at.nu + rows.a[i]));
+      EXPECT_LT((beam - way).norm(), 1e-9) << axis.norm();
+    } else {
+      const auto n = section.outer().at(rows.phi[i] / kTwoPi * section.outer().girth()).normal;
+      EXPECT_LT(std::abs((p - q).x() * n.y() - (p - q).y() * n.x()), 1e-9);
+    }
+  }
+}
+
+TEST(CornerCutouts, LieOnTheTubeAndPassTheirOwnChecks) {
+  Random random(11);
+  int over = 0, tight = 0;
+  for (int i = 0; i < 150; ++i) {
+    const auto section = drawn_section(random);
+    const auto spec = drawn_cutout(random, section);
+    const auto part = plain_part(section, {spec});
+    const auto made = part::section_part(part);
+    if (!made) {
+      ++tight;
+      EXPECT_TRUE(made.error().code() == ErrorCode::open_profile ||
+                  made.error().code() == ErrorCode::cutouts_cross ||
+                  made.error().code() == ErrorCode::out_of_range)
+          << made.error().issues.front().hint;
+      continue;
+    }
+    std::string what = std::to_string(i) + " " + std::to_string(static_cast<int>(spec.wall)) +
+                       (spec.tilt == bevel::Tilt::free ? " free" : " axial");
+    expect_passed(part::verify(part, *made), what);
+    for (const auto& one : made->cutouts.instances) {
+      const auto& laying = made->cutouts.mould_of(one).laying;
+      if (laying.over() == nullptr) continue;
+      ++over;
+      if (laying.lay() != Lay::developed) expect_on_prism(section, spec, made->cutouts, one);
+    }
+  }
+  EXPECT_GT(over, 100);
+  EXPECT_LT(tight, 40);
+  std::printf("over %d, refused %d\n", over, tight);
+}
+
+}  // namespace
+}  // namespace tubecut::testing::corners
