@@ -28,11 +28,14 @@ std::string section_part_csv(const part::SectionPartSpec& spec, const part::Sect
   for (const auto& mark : part.marks)
     if (mark.lettering) add_strokes(*mark.lettering, cuts);
   for (const auto& step : part.sequence)
-    if (step.what == part::Step::What::cutout)
-      cuts.emplace_back(
-          "cut-out " + cutout_tag(part.cutouts, step.index),
-          flat_cutout_columns(cutout::placed(part.cutouts, part.cutouts.instances[step.index]),
-                              spec.section));
+    if (step.what == part::Step::What::cutout) {
+      const auto& one = part.cutouts.instances[step.index];
+      const auto rows = cutout::placed(part.cutouts, one);
+      cuts.emplace_back("cut-out " + cutout_tag(part.cutouts, step.index),
+                        part.cutouts.mould_of(one).laying.over() != nullptr
+                            ? corner_cutout_columns(rows, spec.section)
+                            : flat_cutout_columns(rows, spec.section));
+    }
   cuts.emplace_back("finish", bevel_columns(part.finish.spec, part.finish.table));
   cuts.emplace_back("start", bevel_columns(part.start.spec, part.start.table));
   return Csv(caption)

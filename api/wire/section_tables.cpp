@@ -106,6 +106,40 @@ Columns flat_cutout_columns(const bevel::Hole& rows, const section::Section& sec
   return out;
 }
 
+Columns corner_cutout_columns(const bevel::Hole& rows, const section::Section& section) {
+  const auto girth = [](std::vector<double> phi, const section::Curve& curve) {
+    for (double& one : phi) one *= curve.girth() / kTwoPi;
+    return phi;
+  };
+  const auto outer = section.outer(), bore = section.bore();
+  std::vector<section::Station> at;
+  for (const double phi : rows.phi) at.push_back(outer.at(phi / kTwoPi * outer.girth()));
+  std::vector<double> normal;
+  std::vector<int> face;
+  std::vector<bool> on_corner;
+  for (const auto& one : at) {
+    normal.push_back(one.nu);
+    face.push_back(one.face);
+    on_corner.push_back(one.on_corner);
+  }
+  Columns out;
+  out.column("girth_mm", girth(rows.phi, outer))
+      .degrees("normal_deg", std::move(normal))
+      .integers("face", face)
+      .flags("on_corner", std::move(on_corner))
+      .column("z_mm", rows.z)
+      .column("developed_mm", rows.developed)
+      .column("girth_inner_mm", girth(rows.phi_inner, bore))
+      .column("z_inner_mm", rows.z_inner)
+      .degrees("b_deg", rows.b)
+      .degrees("a_deg", rows.a)
+      .column("torch_girth_mm", girth(rows.torch_phi, outer))
+      .column("torch_z_mm", rows.torch_z)
+      .column("torch_girth_inner_mm", girth(rows.torch_phi_inner, bore))
+      .column("torch_z_inner_mm", rows.torch_z_inner);
+  return out;
+}
+
 std::string_view event_name(joint::SectionEventKind kind) {
   switch (kind) {
     case joint::SectionEventKind::junction:

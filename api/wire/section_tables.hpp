@@ -27,6 +27,10 @@ namespace tubecut::api {
 /// Returns the edge and the torch's axis of a cut-out on a flat; `radius` is that of the circle
 /// that is as long as the girth. On the bore, both lie at the same places of the face.
 [[nodiscard]] Columns flat_cutout_columns(const bevel::Hole& rows, const section::Section& section);
+/// Returns the same of a cut-out over corners: also the place's own columns, the edge and the axis
+/// on the bore, and the lean across.
+[[nodiscard]] Columns corner_cutout_columns(const bevel::Hole& rows,
+                                            const section::Section& section);
 
 /// Returns the name of an event on the wire.
 [[nodiscard]] std::string_view event_name(joint::SectionEventKind kind);

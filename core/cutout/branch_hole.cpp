@@ -208,7 +208,8 @@ BranchHole hole_at(const Branch& branch, const Exit& exit, std::string id) {
                           .shape = Circle{},
                           .at = exit.at,
                           .wall = Wall::normal,
-                          .tilt = branch.tilt}};
+                          .tilt = branch.tilt,
+                          .on_one_flat = true}};
   const bool bore = branch.kind == joint::JointKind::set_on;
   out.spec.as_cut = bore;
   const bool straight = is_rigid(laid.onto()) && laid.way().norm() <= kRounded;

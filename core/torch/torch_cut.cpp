@@ -1,6 +1,7 @@
 #include "core/torch/torch_cut.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -107,6 +108,11 @@ TorchCut cutout_cut(const cutout::Layout& layout, std::size_t index, double kerf
                .path = std::move(tube),
                .kerf = kerf,
                .on_flat = mould.laying.lay() == cutout::Lay::flat};
+  if (mould.laying.over() != nullptr && mould.laying.lay() == cutout::Lay::prism) {
+    out.still = {.phi = one.phi + mould.laying.phase(0.0)};
+    for (const double a : rows.a)
+      out.still->most_lean = std::max(out.still->most_lean, std::abs(a));
+  }
   out.path.scrap = motion::Scrap::inside;
   out.path.phi = rows.torch_phi;
   out.path.z = rows.torch_z;

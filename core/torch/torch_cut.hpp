@@ -29,6 +29,12 @@ struct TorchCut {
   bool mark = false;
   bool open = false;     // a slit: from its pierce to its end, without leads
   bool on_flat = false;  // a cut-out of a section: the torch keeps the normal of its face
+  /// Of a prism over corners: a tube that stands while the torch runs across cuts it as well.
+  struct Still {
+    double phi = 0.0;        // rad, of the place whose normal points up
+    double most_lean = 0.0;  // rad, of the torch from the wall
+  };
+  std::optional<Still> still = {};
   /// Of a cut-out: deep in its scrap, rad and mm on the outside.
   struct Deep {
     double phi = 0.0, z = 0.0;

@@ -69,6 +69,13 @@ void encode_cone(const cutout::Cone& cone, double wall, Writer& w) {
   });
 }
 
+Columns columns_of(const CutoutsOfPart& part, const cutout::Mould& mould,
+                   const bevel::Hole& rows) {
+  if (part.section == nullptr) return cutout_columns(rows);
+  return mould.laying.over() != nullptr ? corner_cutout_columns(rows, *part.section)
+                                        : flat_cutout_columns(rows, *part.section);
+}
+
 void encode_group(const CutoutsOfPart& part, const std::vector<std::size_t>& group, Writer& o) {
   const auto& layout = part.layout;
   const auto& first = layout.instances[group.front()];
@@ -81,8 +88,7 @@ void encode_group(const CutoutsOfPart& part, const std::vector<std::size_t>& gro
   if (mould.cone) encode_cone(*mould.cone, mould.laying.wall(), o);
   o.object("points", [&](Writer& p) {
     const auto rows = cutout::placed(layout, first);
-    (part.section != nullptr ? flat_cutout_columns(rows, *part.section) : cutout_columns(rows))
-        .write(p);
+    columns_of(part, mould, rows).write(p);
   });
   o.field("b_sign", kBSignInPart);
   o.field("scrap", "inside");

@@ -13,6 +13,7 @@
 #include "api/formats/numbers.hpp"
 #include "api/formats/text.hpp"
 #include "api/stop.hpp"
+#include "api/wire/format.hpp"
 #include "core/base/angle.hpp"
 
 namespace tubecut::api {
@@ -128,6 +129,16 @@ std::string cutout_block(const part::SectionPartSpec& spec, const part::SectionP
   return out;
 }
 
+/// A block lies on one face, and its corners are not developed: a part without the opening would be
+/// wrong, and one cut in two at the edge of a face is read as two openings.
+void refuse_over_corners(const cutout::Layout& layout) {
+  for (std::size_t i = 0; i < layout.instances.size(); ++i)
+    if (layout.mould_of(layout.instances[i]).laying.over() != nullptr)
+      throw UnfitOption{"format", "nc1 states each opening on one face, and cut-out " +
+                                      cutout_tag(layout, i) +
+                                      " goes over a corner: take step, dxf or gcode"};
+}
+
 std::string text_block(const section::Curve& outer, const cutout::Lettering& text) {
   const auto& face = *std::ranges::find(kFaces, text.face, &NcFace::face);
   const auto p = outer.at(text.s).point;
@@ -177,6 +188,7 @@ std::string cut_angles(const part::SectionPart& part) {
 
 std::string print_dstv(const part::SectionPartSpec& spec, const part::SectionPart& part,
                        const Caption& caption) {
+  refuse_over_corners(part.cutouts);
   const auto outer = spec.section.outer();
   static const std::vector<std::string> kFrame{
       "unit mm, deg; x along the tube from the long point of the start",

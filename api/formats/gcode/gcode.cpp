@@ -27,8 +27,10 @@ constexpr double kSlow = 1e-3;    // mm, least length a node's time is taken fro
 constexpr double kSag = 0.019;    // mm, of one move; below 0.02 with the rounding of its words
 constexpr double kMostSag = 0.1;  // mm; more is a fault of ours
 
-TorchPlace place(const motion::CutPoint& p, bool on_flat) {
-  return {p.phi, p.z, p.b, p.a, on_flat};
+TorchPlace place(const motion::CutPoint& p, const torch::TorchCut& cut) {
+  TorchPlace out{p.phi, p.z, p.b, p.a, cut.on_flat};
+  if (cut.still) out.still = cut.still->phi;
+  return out;
 }
 
 torch::Setup setup_of(const FormatOptions& o) {
@@ -49,14 +51,14 @@ torch::Setup setup_of(const FormatOptions& o) {
 }
 
 /// Adds positions if a move of all axes would sag.
-void refine(const motion::CutWithLead& way, bool on_flat, const TorchReach& reach,
+void refine(const motion::CutWithLead& way, const torch::TorchCut& cut, const TorchReach& reach,
             const std::optional<SectionTurn>& turn, Straightness& told, TorchCutPlaces& out) {
   const auto& points = way.points;
-  out.places = {place(points.front(), on_flat)};
+  out.places = {place(points.front(), cut)};
   for (std::size_t i = 1; i < points.size(); ++i) {
     ask();
-    auto at = place(points[i - 1], on_flat);
-    const auto next_row = place(points[i], on_flat);
+    auto at = place(points[i - 1], cut);
+    const auto next_row = place(points[i], cut);
     const auto moves = turn ? turn->moves(reach, at, next_row, kSag, told.sag)
                             : straight_moves(reach, at, next_row, kSag);
     told.inserted += moves.size() - 1;
@@ -120,7 +122,7 @@ std::vector<TorchCutPlaces> ways_of(const TorchJob& job, const Caption& caption,
                      .radius = way.radius,
                      .mark = cut.mark,
                      .open = cut.open});
-      refine(way.points, cut.on_flat, reach, turn, moves, out.back());
+      refine(way.points, cut, reach, turn, moves, out.back());
     }
   }
   // A program that strays is worse than none.

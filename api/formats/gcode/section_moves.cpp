@@ -31,7 +31,7 @@ TorchPlace between(const TorchReach& r, const TorchPlace& from, const TorchPlace
             turned(from.a, to.a), true};
   const auto at = motion::between({r.outer_radius, r.inner_radius}, {from.phi, from.z, from.b},
                                   {to.phi, to.z, to.b}, share);
-  return {at.phi, at.z, at.b};
+  return {.phi = at.phi, .z = at.z, .b = at.b, .still = from.still};
 }
 
 }  // namespace
@@ -39,9 +39,11 @@ TorchPlace between(const TorchReach& r, const TorchPlace& from, const TorchPlace
 SectionTurn::SectionTurn(const section::Section& section)
     : section_(section), up_(section, kLean), radius_(motion::equal_radius(section)) {}
 
-UprightPlace SectionTurn::at(double phi, bool on_flat) const {
-  const double s = radius_ * phi;
-  const double angle = on_flat ? up_.normal(s) : up_.angle(s);
+UprightPlace SectionTurn::at(const TorchPlace& place) const {
+  const double s = radius_ * place.phi;
+  const double angle = place.still     ? up_.normal(radius_ * *place.still)
+                       : place.on_flat ? up_.normal(s)
+                                       : up_.angle(s);
   const auto p = up_.point(s);
   const auto [sin, cos] = elementary::sincos(angle);
   return {angle, p.y() * cos - p.x() * sin, p.x() * cos + p.y() * sin};
@@ -50,13 +52,15 @@ UprightPlace SectionTurn::at(double phi, bool on_flat) const {
 /// An edge on the bore is farther than the tip by the wall times the difference of the angle.
 double SectionTurn::turn_sag(const TorchReach& reach, const TorchPlace& from,
                              const TorchPlace& to) const {
-  const auto a = at(from.phi, from.on_flat), b = at(to.phi, to.on_flat);
+  const auto a = at(from), b = at(to);
   double most = 0.0;
   for (const double share : {0.25, 0.5, 0.75}) {
     const auto mixed = [&](double x, double y) { return x + share * (y - x); };
     const UprightPlace straight{mixed(a.angle, b.angle), mixed(a.across, b.across),
                                 mixed(a.out, b.out)};
-    const auto exact = at(mixed(from.phi, to.phi), from.on_flat);
+    auto middle = from;
+    middle.phi = mixed(from.phi, to.phi);
+    const auto exact = at(middle);
     const double wall = reach.outer_radius - reach.inner_radius;
     most = std::max(
         most, (tip(straight) - tip(exact)).norm() + wall * std::abs(straight.angle - exact.angle));

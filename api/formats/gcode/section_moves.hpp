@@ -20,8 +20,8 @@ class SectionTurn {
  public:
   explicit SectionTurn(const section::Section& section);
 
-  /// `on_flat`: square to the flat there, also where the torch begins to lean for the next corner.
-  [[nodiscard]] UprightPlace at(double phi, bool on_flat) const;
+  /// On a flat: square to it, also where the torch begins to lean for the next corner.
+  [[nodiscard]] UprightPlace at(const TorchPlace& place) const;
   [[nodiscard]] const section::Section& section() const { return section_; }
 
   /// Returns the ends of moves from one place to another, the last of them `to`: at the ends of

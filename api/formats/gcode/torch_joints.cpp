@@ -85,7 +85,7 @@ std::string TorchJoints::clear_height() const {
 
 TorchJoints::Under TorchJoints::under(const TorchPlace& at) const {
   if (!section_) return {radius_, 0.0, at.phi * kDegPerRad};
-  const auto up = section_->at(at.phi, at.on_flat);
+  const auto up = section_->at(at);
   return {up.out, up.across, up.angle * kDegPerRad};
 }
 

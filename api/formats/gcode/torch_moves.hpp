@@ -10,6 +10,7 @@ namespace tubecut::api {
 struct TorchPlace {
   double phi = 0.0, z = 0.0, b = 0.0, a = 0.0;
   bool on_flat = false;  // of a section: the torch keeps the normal of the flat
+  std::optional<double> still = {};  // or that at this phi: the tube stands
 };
 
 /// The wall that is cut, and how far the point that the linear axes carry is behind the tip.

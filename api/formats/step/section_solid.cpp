@@ -7,6 +7,7 @@
 
 #include "api/formats/drawing/part_edges.hpp"
 #include "api/formats/step/section_cutout.hpp"
+#include "api/formats/step/section_over.hpp"
 #include "api/formats/step/section_ring.hpp"
 #include "api/stop.hpp"
 #include "api/wire/format.hpp"
@@ -54,8 +55,16 @@ class Builder {
     for (std::size_t i = 0; i < layout.instances.size(); ++i) {
       ask();
       if (layout.instances[i].sunk) continue;
+      const auto name = "cut-out " + cutout_tag(layout, i);
+      if (layout.mould_of(layout.instances[i]).laying.over() != nullptr) {
+        const auto over = add_over_cutout(wall_, layout, layout.instances[i], name, out_);
+        over_[0].push_back(over.outside);
+        over_[1].push_back(over.bore);
+        over_names_ = over_names_.empty() ? name : over_names_ + ", " + name;
+        continue;
+      }
       cutouts_.push_back(
-          add_cutout(wall_, layout, layout.instances[i], "cut-out " + cutout_tag(layout, i), out_));
+          add_cutout(wall_, layout, layout.instances[i], name, out_));
     }
     for (const bool outer : {true, false}) {
       ask();
@@ -233,8 +242,13 @@ class Builder {
 
   void add_wall(bool outer) {
     const auto& seams = seams_[outer ? 0 : 1];
+    const auto& curve = outer ? wall_.outer() : wall_.bore();
+    const SeamPieces pieces(curve, over_[outer ? 0 : 1], over_names_);
+    const auto own = [&](double s) {
+      return outer ? s : wall_.across(wall_.outer().at(s)).bore.s;
+    };
     std::vector<std::array<std::size_t, 2>> rows;  // of each seam, at both ends
-    std::vector<std::size_t> sides;                // the edge there, from start to finish
+    std::vector<std::vector<std::size_t>> sides;   // the edges there, from start to finish
     for (const double s : seams) {
       std::array<std::size_t, 2> at{}, vertex{};
       for (const bool finish : {false, true}) {
@@ -244,35 +258,49 @@ class Builder {
         vertex[finish ? 1 : 0] = cut.vertices[k][at[finish ? 1 : 0]];
       }
       rows.push_back(at);
-      sides.push_back(
-          add_edge(vertex[0], vertex[1], {out_.vertices[vertex[0]], out_.vertices[vertex[1]]}));
+      sides.push_back(pieces.add(own(s), vertex[0], vertex[1], out_));
     }
     for (std::size_t i = 0; i < seams.size(); ++i) {
       const auto j = (i + 1) % seams.size();
-      Brep::Loop low, high;
-      append(cuts_[0], outer ? 0 : cuts_[0].along.size() - 1, rows[i][0], rows[j][0], low);
-      append(cuts_[1], outer ? 0 : cuts_[1].along.size() - 1, rows[i][1], rows[j][1], high);
-      Brep::Loop loop = low;
-      loop.emplace_back(sides[j], true);
-      for (auto use = high.rbegin(); use != high.rend(); ++use)
-        loop.emplace_back(use->first, false);
-      loop.emplace_back(sides[i], false);
-      if (!outer) {
-        std::ranges::reverse(loop);
-        for (auto& use : loop) use.second = !use.second;
-      }
       const double girth = wall_.outer().girth();
       double middle = 0.5 * (seams[i] + seams[j] + (j == 0 ? girth : 0.0));
       if (middle >= girth) middle -= girth;
       const auto station = wall_.outer().at(middle);
-      out_.faces.push_back(wall_face(outer, station, std::move(loop)));
-      if (!station.on_corner) add_borders(outer, station.face, out_.faces.back());
+      Strip strip{.from = own(seams[i]), .to = own(seams[j]), .across = station.tangent()};
+      if (strip.to <= strip.from) strip.to += curve.girth();
+      append(cuts_[0], outer ? 0 : cuts_[0].along.size() - 1, rows[i][0], rows[j][0], strip.low);
+      append(cuts_[1], outer ? 0 : cuts_[1].along.size() - 1, rows[i][1], rows[j][1], strip.high);
+      add_faces(outer, station, pieces.faces_of(strip, sides[i], sides[j], out_), strip.across);
     }
   }
 
-  void add_borders(bool outer, int number, Brep::Face& face) const {
-    for (const auto& cutout : cutouts_)
-      if (cutout.face == number) face.loops.push_back(outer ? cutout.outside : cutout.bore);
+  /// Adds the faces of a strip; a cut-out on a flat lies in one of them.
+  void add_faces(bool outer, const Station& station, std::vector<std::vector<Brep::Loop>> faces,
+                 const Vector2d& across) {
+    std::vector<Brep::Face> made;
+    for (auto& loops : faces) {
+      if (!outer)
+        for (auto& loop : loops) {
+          std::ranges::reverse(loop);
+          for (auto& use : loop) use.second = !use.second;
+        }
+      auto& face = made.emplace_back(wall_face(outer, station, std::move(loops.front())));
+      for (std::size_t i = 1; i < loops.size(); ++i) face.loops.push_back(std::move(loops[i]));
+    }
+    if (!station.on_corner) add_borders(outer, station.face, across, made);
+    for (auto& face : made) out_.faces.push_back(std::move(face));
+  }
+
+  void add_borders(bool outer, int number, const Vector2d& across,
+                   std::vector<Brep::Face>& faces) const {
+    for (const auto& cutout : cutouts_) {
+      if (cutout.face != number) continue;
+      const auto& loop = outer ? cutout.outside : cutout.bore;
+      auto* in = &faces.front();
+      for (auto& face : faces)
+        if (faces.size() > 1 && goes_round(face.loops.front(), across, loop, out_)) in = &face;
+      in->loops.push_back(loop);
+    }
   }
 
   [[nodiscard]] Brep::Face wall_face(bool outer, const Station& outside, Brep::Loop loop) const {
@@ -299,6 +327,8 @@ class Builder {
   std::vector<double> all_seams_;
   std::array<Cut, 2> cuts_;
   std::vector<CutoutBorder> cutouts_;
+  std::array<std::vector<OverBorder>, 2> over_;  // outside, bore
+  std::string over_names_;
   Brep out_;
 };
 

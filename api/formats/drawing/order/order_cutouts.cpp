@@ -131,8 +131,10 @@ void draw_cutouts(OrderSheets& sheets, const part::SectionPartSpec& spec,
                   const part::SectionPart& part) {
   draw_cutout_rows(
       sheets, spec.cutouts.all, part.cutouts, part.lengths.longest,
-      [](const cutout::Instance& one) {
-        return "face " + std::to_string(one.face) +
+      [&](const cutout::Instance& one) {
+        return (part.cutouts.mould_of(one).laying.over() != nullptr ? "over corner, face "
+                                                                    : "face ") +
+               std::to_string(one.face) +
                (one.offset == 0.0 ? "" : ", " + number(one.offset, Unit::mm));
       },
       // The girth of the opposite face grows the other way across.

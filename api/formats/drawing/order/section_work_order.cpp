@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "api/formats/drawing/order/broken_scale.hpp"
@@ -179,6 +180,10 @@ class Faces {
     const auto& layout = part_.cutouts;
     for (std::size_t i = 0; i < layout.instances.size(); ++i) {
       const auto& one = layout.instances[i];
+      if (layout.mould_of(one).laying.over() != nullptr) {
+        draw_over_corner(canvas, face, middle, i);
+        continue;
+      }
       if (one.face != face) continue;
       const auto rows = cutout::placed(layout, one);
       const double anchor = outer_.on_face(face, 0.0);
@@ -190,6 +195,43 @@ class Faces {
       }
       canvas.polyline(std::move(line), kEdge, "cutout-" + std::to_string(i + 1), true);
     }
+  }
+
+  /// Of a cut-out over corners what this face shows, as of an end's cut.
+  void draw_over_corner(Canvas& canvas, int face, double middle, std::size_t i) const {
+    const auto rows = cutout::placed(part_.cutouts, part_.cutouts.instances[i]);
+    const auto normal = section::Curve::face_normal(face);
+    const Eigen::Vector2d round(-normal.y(), normal.x());
+    const auto n = rows.z.size();
+    std::vector<std::optional<DrawingPoint>> shown(n);
+    std::size_t first = n;  // hidden
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto at = outer_.at(rows.phi[k] / kTwoPi * outer_.girth());
+      if (at.normal.dot(normal) > 1e-9)
+        shown[k] = {x(rows.z[k]), middle - at.point.dot(round) * scale_};
+      else
+        first = k;
+    }
+    const auto id = "cutout-" + std::to_string(i + 1);
+    const bool whole = first == n;
+    std::vector<DrawingPoint> line;
+    int pieces = 0;
+    const auto end_line = [&] {
+      if (line.size() > 1)
+        canvas.polyline(line, kEdge,
+                        id + "-face-" + std::to_string(face) +
+                            (pieces++ == 0 ? "" : "-" + std::to_string(pieces)),
+                        whole);
+      line.clear();
+    };
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto& point = shown[(whole ? k : first + 1 + k) % n];
+      if (point)
+        line.push_back(*point);
+      else
+        end_line();
+    }
+    end_line();
   }
 
   const part::SectionPart& part_;
@@ -217,7 +259,9 @@ void draw_faces(OrderSheets& sheets, const part::SectionPartSpec& spec,
 
 std::string cutout_step(const part::SectionPart& part, const part::Step& step) {
   const auto& one = part.cutouts.instances[step.index];
-  return "cut " + cutout_tag(part.cutouts, step.index) + " on face " + std::to_string(one.face) +
+  const bool over = part.cutouts.mould_of(one).laying.over() != nullptr;
+  return "cut " + cutout_tag(part.cutouts, step.index) +
+         (over ? " over a corner, from face " : " on face ") + std::to_string(one.face) +
          ", its place " + mm(one.z) + " from the start's long point";
 }
 
