@@ -76,6 +76,20 @@ std::optional<Mould::Line> slit_of(const Spec& spec) {
   return Mould::Line{slit_line(*one, spec.turn), one->pierce};
 }
 
+/// Only a contour has pieces to point at; over corners a beam square to the outside needs more room
+/// than beside the shape's own anchor.
+void point_at_shape(const Spec& spec, std::vector<Issue>& issues) {
+  if (std::holds_alternative<Contour>(spec.shape)) return;
+  for (auto& issue : issues) {
+    issue.member.clear();
+    if (issue.code != ErrorCode::out_of_range || issue.limit.index() == 0) continue;
+    issue.hint =
+        "over a corner the beam stands square to the outside and is that much wider beside the "
+        "bore, so that its hollows need this radius; make it wider, or cut it by wall normal with "
+        "tilt free";
+  }
+}
+
 /// Finds the mould of one side, or makes it.
 Result<std::size_t> mould_of(const Spec& spec, const Chain& chain, const Laying& laying,
                              const Ground& ground, std::vector<Mould>& all) {
@@ -85,8 +99,9 @@ Result<std::size_t> mould_of(const Spec& spec, const Chain& chain, const Laying&
         all[i].slit == line && std::ranges::equal(all[i].chain, chain, alike))
       return i;
   const Cutting cutting{.kerf = ground.kerf, .tolerance = ground.tolerance, .as_cut = spec.as_cut};
-  TRY(auto made, under("shape", line ? slit_rows(laying, chain, line->line, cutting)
-                                     : rows(laying, chain, cutting)));
+  auto found = line ? slit_rows(laying, chain, line->line, cutting) : rows(laying, chain, cutting);
+  if (!found && laying.over() != nullptr) point_at_shape(spec, found.error().issues);
+  TRY(auto made, under("shape", std::move(found)));
   TRY(check_lean(made, ground));
   all.push_back({.laying = laying,
                  .chain = chain,

@@ -19,6 +19,7 @@ namespace {
 constexpr double kSmooth = 1e-7;  // rad, between two segments that are one line
 constexpr double kLeft = 1e-4;    // mm, of metal in a hollow corner that counts as smooth
 constexpr double kBulge = 0.004;  // mm, of a chord of the torch's line into the part
+constexpr double kFarTurn = 1e3;  // mm: more than any tolerance
 constexpr int kDeepest = 12;      // halvings of a segment
 constexpr double kEighth = 0.25 * kPi;
 constexpr double kSame = 1e-7;         // mm, between two places of the axis
@@ -80,6 +81,8 @@ class Maker {
   [[nodiscard]] double least_of(const Segment& s) const;
   /// How far the torch's line and the edges, over corners, bend off the straight way.
   [[nodiscard]] double torch_off(const Segment& s, double from, double to) const;
+  /// Whether either surface turns by more than 10 deg.
+  [[nodiscard]] bool turns_far(const Segment& s, double from, double to) const;
   void halve(const Segment& s, double from, double to, double within, int depth,
              std::vector<double>& out) const;
   [[nodiscard]] std::vector<double> shares(const Segment& s) const;
@@ -102,12 +105,30 @@ double Maker::least_of(const Segment& s) const {
   return out;
 }
 
+bool Maker::turns_far(const Segment& s, double from, double to) const {
+  constexpr double kMost = 10.0001 * kRadPerDeg;
+  const auto a = laying_.over()->at(inside(s, s.at(from).y()));
+  const auto b = laying_.over()->at(inside(s, s.at(to).y()));
+  return std::abs(std::remainder(b.outer.nu - a.outer.nu, kTwoPi)) > kMost ||
+         std::abs(std::remainder(b.bore.nu - a.bore.nu, kTwoPi)) > kMost;
+}
+
 double Maker::torch_off(const Segment& s, double from, double to) const {
-  const auto at = [&](double share) { return axis(s.at(share), normal(s, share)); };
-  const Flat a = at(from), way = at(to) - a;
-  const double length = way.norm();
-  if (!(length > 0.0)) return 0.0;
-  return std::abs(cross(way, at(0.5 * (from + to)) - a)) / length;
+  double off = 0.0;
+  for (const double rho : {laying_.outer(), laying_.inner()}) {
+    // A prism's torch runs straight in the local plane, a square one's on the developed outside.
+    const auto at = [&](double share) {
+      const Flat p = axis(s.at(share), normal(s, share));
+      return laying_.parallel() ? on_wall(p, rho) : p;
+    };
+    const Flat a = at(from), way = at(to) - a;
+    const double length = way.norm();
+    for (const double part : {0.25, 0.5, 0.75})
+      if (length > 0.0)
+        off = std::max(off, std::abs(cross(way, at(from + part * (to - from)) - a)) / length);
+    if (!laying_.parallel()) break;
+  }
+  return off;
 }
 
 void Maker::halve(const Segment& s, double from, double to, double within, int depth,
@@ -121,7 +142,8 @@ void Maker::halve(const Segment& s, double from, double to, double within, int d
       if (length > 0.0) off = std::max(off, std::abs(cross(way, p)) / length);
     }
   }
-  if (laying_.over() != nullptr) off = std::max(off, torch_off(s, from, to));
+  if (laying_.over() != nullptr)
+    off = std::max(off, turns_far(s, from, to) ? kFarTurn : torch_off(s, from, to));
   if (off <= within || depth == kDeepest) return out.push_back(to);
   const double middle = 0.5 * (from + to);
   halve(s, from, middle, within, depth + 1, out);
