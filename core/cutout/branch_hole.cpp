@@ -9,6 +9,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/cutout/flats.hpp"
 #include "core/cutout/hull.hpp"
 
 namespace tubecut::cutout {
@@ -201,8 +202,37 @@ double greatest_gap(const Branch& branch, const Laid& laid, const std::vector<Hu
   return out;
 }
 
+/// The same of a hole that goes straight over corners, its wall square to the outside from the
+/// bore on.
+double gap_over_corner(const Branch& branch, const Laid& laid, const std::vector<HullPart>& hull,
+                       const Exit& exit, const section::Wall& wall) {
+  const auto curve = outline(branch, 0.0);
+  const SectionLay over(wall, wall.outer().on_face(exit.at.face, exit.at.offset), Lay::bored,
+                        false);
+  const Vector2d round = exit.round.head<2>();
+  double out = branch.gap;
+  for (const auto& p : places(hull)) {
+    const Vector2d flat = laid.onto() * p;
+    const auto outside = over.at(flat.y()).outer.point;
+    const double b = outside.dot(round) - exit.at.offset;
+    out = std::max({out, way_to(curve, p),
+                    way_to(curve, laid.onto().inverse() * Vector2d(flat.x(), b))});
+  }
+  return out;
+}
+
+/// Returns true if the hole leaves the flat of its face, which only one at a right angle may.
+bool leaves_flat(const Laid& laid, const std::vector<HullPart>& hull, const Exit& exit,
+                 const section::Wall& wall) {
+  const double half = half_flat(wall, exit.at.face);
+  return std::ranges::any_of(places(hull), [&](const Vector2d& p) {
+    return std::abs(exit.at.offset + (laid.onto() * p).y()) > half;
+  });
+}
+
 /// The hole at one exit.
-BranchHole hole_at(const Branch& branch, const Exit& exit, std::string id) {
+BranchHole hole_at(const Branch& branch, const Exit& exit, const section::Wall* wall,
+                   std::string id) {
   const Laid laid(branch, exit);
   BranchHole out{.spec = {.id = std::move(id),
                           .shape = Circle{},
@@ -218,6 +248,11 @@ BranchHole hole_at(const Branch& branch, const Exit& exit, std::string id) {
   const auto curve = outline(branch, gap);
   const auto hull = swept(curve, laid.way());
   if (!bore) out.greatest_gap = greatest_gap(branch, laid, hull);
+  // Of a set-on branch the edge outside is asked for, from which no wall of a cut-out begins.
+  if (!bore && straight && wall != nullptr && leaves_flat(laid, hull, exit, *wall)) {
+    out.spec.on_one_flat = false;
+    out.greatest_gap = gap_over_corner(branch, laid, hull, exit, *wall);
+  }
   if (straight && exit.shift.isZero(kRounded)) {
     const Vector2d x = laid.onto().col(0);
     if (!branch.section) {
@@ -245,7 +280,7 @@ Result<std::vector<BranchHole>> holes_for(const Branch& branch, const std::strin
     if (far) one.axis.direction = -one.axis.direction;
     TRY(const auto exit,
         wall != nullptr ? exit_of(*wall, one.axis) : exit_of(tube, one.axis, zero));
-    out.push_back(hole_at(one, exit, far ? id + ".far" : id));
+    out.push_back(hole_at(one, exit, wall, far ? id + ".far" : id));
   }
   return out;
 }

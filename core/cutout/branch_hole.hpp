@@ -34,7 +34,8 @@ struct BranchHole {
 };
 
 /// Returns the cut-outs that a branch requires: one where it leaves the tube, and of one that
-/// passes through also one on the other side ("id.far"). Set-on: the branch's bore; else its
+/// passes through also one on the other side ("id.far"). Set-in and through at a right angle to its
+/// face, it may go over corners. Set-on: the branch's bore; else its
 /// outside, grown by the gap. The outline is the hull of the branch's outlines on the outside and
 /// on the bore.
 ///

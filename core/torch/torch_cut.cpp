@@ -109,7 +109,7 @@ TorchCut cutout_cut(const cutout::Layout& layout, std::size_t index, double kerf
                .kerf = kerf,
                .on_flat = mould.laying.lay() == cutout::Lay::flat};
   if (mould.laying.over() != nullptr && mould.laying.lay() == cutout::Lay::prism) {
-    out.still = {.phi = one.phi + mould.laying.phase(0.0)};
+    out.still = {.phi = one.phi + mould.laying.phase(0.0), .turn = mould.laying.lean(0.0)};
     for (const double a : rows.a)
       out.still->most_lean = std::max(out.still->most_lean, std::abs(a));
   }

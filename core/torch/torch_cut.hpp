@@ -31,7 +31,8 @@ struct TorchCut {
   bool on_flat = false;  // a cut-out of a section: the torch keeps the normal of its face
   /// Of a prism over corners: a tube that stands while the torch runs across cuts it as well.
   struct Still {
-    double phi = 0.0;        // rad, of the place whose normal points up
+    double phi = 0.0;        // rad, of its anchor
+    double turn = 0.0;       // rad, from the normal there to the direction that points up
     double most_lean = 0.0;  // rad, of the torch from the wall
   };
   std::optional<Still> still = {};

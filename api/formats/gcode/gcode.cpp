@@ -29,7 +29,7 @@ constexpr double kMostSag = 0.1;  // mm; more is a fault of ours
 
 TorchPlace place(const motion::CutPoint& p, const torch::TorchCut& cut) {
   TorchPlace out{p.phi, p.z, p.b, p.a, cut.on_flat};
-  if (cut.still) out.still = cut.still->phi;
+  if (cut.still) out.still = {.phi = cut.still->phi, .turn = cut.still->turn};
   return out;
 }
 

@@ -41,7 +41,7 @@ SectionTurn::SectionTurn(const section::Section& section)
 
 UprightPlace SectionTurn::at(const TorchPlace& place) const {
   const double s = radius_ * place.phi;
-  const double angle = place.still     ? up_.normal(radius_ * *place.still)
+  const double angle = place.still     ? up_.normal(radius_ * place.still->phi) + place.still->turn
                        : place.on_flat ? up_.normal(s)
                                        : up_.angle(s);
   const auto p = up_.point(s);

@@ -10,7 +10,11 @@ namespace tubecut::api {
 struct TorchPlace {
   double phi = 0.0, z = 0.0, b = 0.0, a = 0.0;
   bool on_flat = false;  // of a section: the torch keeps the normal of the flat
-  std::optional<double> still = {};  // or that at this phi: the tube stands
+  /// Or the tube stands, and the direction that is turned from the normal at phi points up.
+  struct Still {
+    double phi = 0.0, turn = 0.0;
+  };
+  std::optional<Still> still = {};
 };
 
 /// The wall that is cut, and how far the point that the linear axes carry is behind the tip.

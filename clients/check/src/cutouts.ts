@@ -1,5 +1,5 @@
 /** Cut-outs: edges on their shapes, the beam next to them, areas and volumes, places and webs (docs/theory/cutouts.md). */
-import {girth, girthAt, type Outline, walk, wallAt} from './outline.js';
+import {girth, girthAt, type Outline, outOf, walk, wallAt} from './outline.js';
 import type {Scope} from './report.js';
 import type {Row} from './section_ends.js';
 import {around, chainOf, type Flat, type Instance, offChain, placesOf, type Segment} from './shapes.js';
@@ -102,9 +102,9 @@ function placesOfRows(host: Host, points: {[name: string]: number[]}): Places {
   };
 }
 
-/** How a wall is cut, by its request. */
-function wallOf(host: Host, request: Body, asked: Body): string {
-  if (!isRound(host)) return 'flat';
+/** How a wall is cut, by its request; `over`: over a corner of a tube that is not round. */
+function wallOf(host: Host, request: Body, asked: Body, over: boolean): string {
+  if (!isRound(host) && !over) return 'flat';
   if (asked.wall === 'developed') return 'developed';
   const tilt = asked.tilt ?? (asked.countersink ? 'free' : request.preset === 'tube_laser' ? 'none' : 'axial');
   return tilt === 'free' ? 'prism' : 'square_from_bore';
@@ -176,7 +176,8 @@ export function checkCutouts(scope: Scope, request: Body, result: Body, host: Ho
       continue;
     }
     const wall = String(group.wall);
-    own.equal('wall', wall, wallOf(host, request, asked), String(group.id));
+    const over = !isRound(host) && 'normal_deg' in (group.points as Body);
+    own.equal('wall', wall, wallOf(host, request, asked, over), String(group.id));
     const chain = chainOf(asked.shape as Body, kerf, leastRadius(host, wall, kerf) ?? NaN);
     if (!chain || chain.some(({from}) => Number.isNaN(from[0] + from[1]))) {
       own.not('points', 'the shape needs a reader or a radius that is not covered');
@@ -184,7 +185,12 @@ export function checkCutouts(scope: Scope, request: Body, result: Body, host: Ho
       taken = undefined;
       continue;
     }
-    checkShape(own, host, {chain, wall, far, kerf: (asked.shape as Body).kind === 'slit' ? 0 : kerf}, group, plane, places);
+    const cut = {chain, wall, far, kerf: (asked.shape as Body).kind === 'slit' ? 0 : kerf};
+    if (over) {
+      checkOver(own, host, cut, group, {...plane, s: anchorOf(host, asked, first, finishLong).s}, places);
+      own.not('volume_mm3', 'over a corner areas and volume are not computed again');
+      taken = undefined;
+    } else checkShape(own, host, cut, group, plane, places);
   }
   for (const asked of all)
     for (const {name} of placesOf(String(asked.id), asked.pattern as Body | undefined, whole))
@@ -259,8 +265,12 @@ function checkInstances(
     } else {
       const {x, y} = walk(host.outer, anchor.s);
       const here = walk(host.outer, one.girth_mm);
-      const opposite: V3 = far ? mirrored(host, anchor) : [x, y, 0];
-      scope.most('instance_girth', Math.hypot(here.x - opposite[0], here.y - opposite[1]), 3e-10, 'mm', one.id);
+      // A wall square to the outside begins on the bore.
+      const square = far && group.wall === 'square_from_bore';
+      const e = square ? wallAt(host.bore, here) : 0;
+      const opposite: V3 = far ? mirrored(square ? host.bore : host.outer, host, anchor) : [x, y, 0];
+      const off = Math.hypot(here.x - e * here.normal[0] - opposite[0], here.y - e * here.normal[1] - opposite[1]);
+      scope.most('instance_girth', off, 3e-10, 'mm', one.id);
       scope.most('instance_offset', near(one.girth_mm, (whole / 4) * (one.face - 1) + one.offset_mm, whole), 3e-10, 'mm', one.id);
     }
     const [from, to] = reach.map((off) => off + one.girth_mm);
@@ -274,11 +284,18 @@ function checkInstances(
   );
 }
 
-/** The place straight through the tube from an anchor on a flat. */
-function mirrored(host: Host, anchor: Anchor): V3 {
+/** The place of an outline straight through the tube from an anchor, along its normal. */
+function mirrored(outline: Outline, host: Host, anchor: Anchor): V3 {
   const {x, y, normal} = walk(host.outer, anchor.s);
-  const through = 2 * Math.abs(normal[0] * host.outer.a + normal[1] * host.outer.b);
-  return [x - through * normal[0], y - through * normal[1], 0];
+  const at = (way: number): V3 => [x - way * normal[0], y - way * normal[1], 0];
+  let [low, high] = [x * normal[0] + y * normal[1], 4 * (host.outer.a + host.outer.b)];
+  for (let i = 0; i < 100; i += 1) {
+    const middle = (low + high) / 2;
+    const [p, q] = at(middle);
+    if (outOf(outline, p, q).off < 0) low = middle;
+    else high = middle;
+  }
+  return at(high);
 }
 
 interface Cut {
@@ -325,6 +342,47 @@ function checkShape(scope: Scope, host: Host, {chain, wall, far, kerf}: Cut, gro
   else checkBeam(scope, kerf, name, places);
   const columns = ['phi_deg', 'z_mm', 'phi_inner_deg', 'z_inner_mm', 'girth_mm', 'torch_phi_deg', 'torch_z_mm', 'torch_phi_inner_deg', 'torch_z_inner_mm'];
   scope.covers(...[...columns, 'torch_girth_mm', 'b_deg', 'a_deg'].map((column) => `points/${column}`));
+  checkAngles(scope, group, places, name);
+}
+
+/** Over a corner: a prism along the anchor's normal, its edge on the bore, or the shape laid on the outside; the beam next to the wall. */
+function checkOver(scope: Scope, host: Host, {chain, wall, far, kerf}: Cut, group: Body, plane: Plane & {s: number}, places: Places): void {
+  const name = String(group.id);
+  const whole = girth(host.outer);
+  places.outer.forEach((p, i) => {
+    const q = places.inner[i];
+    const where = `${name} row ${i}`;
+    const here = walk(host.outer, girthAt(host.outer, p[0], p[1]));
+    const square = Math.abs((q[0] - p[0]) * here.normal[1] - (q[1] - p[1]) * here.normal[0]);
+    const round = girthAt(host.outer, p[0], p[1]) - plane.s;
+    const b = round - whole * Math.round(round / whole);
+    if (wall === 'developed') scope.most('edge_on_shape', offChain(chain, [p[2] - plane.origin[2], b]), 1e-9, 'mm', where);
+    else scope.most('edge_on_shape', offChain(chain, inPlane(plane, q)), 1e-9, 'mm', where);
+    if (wall === 'prism') scope.most('edge_on_shape', offChain(chain, inPlane(plane, p)), 1e-9, 'mm', where);
+    else scope.most('wall_square', square, 1e-9, 'mm', where);
+    scope.most('edge_on_side', (dot(p, plane.normal) - dot(q, plane.normal)) * (far ? 1 : -1), 1e-9, 'mm', where);
+    const points = group.points as unknown as {[column: string]: (number | boolean)[]};
+    const turned = (Math.atan2(here.normal[1], here.normal[0]) / RAD - Number(points.normal_deg[i])) / 360;
+    scope.most('normal', 360 * Math.abs(turned - Math.round(turned)), 1e-9, 'deg', where);
+  });
+  checkLengthOf(scope, host, group);
+  if (wall === 'prism')
+    places.beam.forEach((axis, i) => {
+      for (const at of axis) scope.same('beam_off_shape', kerf > 0 ? offChain(chain, inPlane(plane, at)) : 0, kerf / 2, 1e-9, 'mm', `${name} row ${i}`);
+    });
+  else checkBeam(scope, kerf, name, places);
+  const columns = [
+    'girth_mm',
+    'normal_deg',
+    'z_mm',
+    'girth_inner_mm',
+    'z_inner_mm',
+    'torch_girth_mm',
+    'torch_z_mm',
+    'torch_girth_inner_mm',
+    'torch_z_inner_mm',
+  ];
+  scope.covers(...[...columns, 'b_deg', 'a_deg'].map((column) => `points/${column}`));
   checkAngles(scope, group, places, name);
 }
 
