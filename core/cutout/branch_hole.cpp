@@ -215,8 +215,8 @@ double gap_over_corner(const Branch& branch, const Laid& laid, const std::vector
     const Vector2d flat = laid.onto() * p;
     const auto outside = over.at(flat.y()).outer.point;
     const double b = outside.dot(round) - exit.at.offset;
-    out = std::max({out, way_to(curve, p),
-                    way_to(curve, laid.onto().inverse() * Vector2d(flat.x(), b))});
+    out = std::max(
+        {out, way_to(curve, p), way_to(curve, laid.onto().inverse() * Vector2d(flat.x(), b))});
   }
   return out;
 }

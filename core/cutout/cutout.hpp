@@ -47,7 +47,7 @@ struct Spec {
   bevel::Tilt tilt = bevel::Tilt::axial;
   Pattern pattern;
   std::optional<Countersink> countersink = {};  // of a circle
-  bool on_one_flat = false;  // of a section: its shape follows from this face
+  bool on_one_flat = false;                     // of a section: its shape follows from this face
 };
 
 /// The tube that is cut, and the heights that anchors count from.
@@ -106,8 +106,8 @@ struct Layout {
   [[nodiscard]] bool empty() const { return instances.empty(); }
 };
 
-/// Lays every cut-out on its wall. On a section, a countersink, a slit and what is `on_one_flat` lie
-/// within one flat of it.
+/// Lays every cut-out on its wall. On a section, a countersink, a slit and what is `on_one_flat`
+/// lie within one flat of it.
 ///
 /// Errors  at cutouts/k: out_of_range, contour_open, contour_crosses, open_profile (shape),
 ///         pattern_wraps, out_of_range (pattern), torch_range (tilt); those of check_cone. Of a

@@ -74,8 +74,7 @@ std::optional<double> over_corner(const section::Wall& wall, const Spec& spec, c
   const auto [face, offset] = step_place(wall.outer(), spec.at, step);
   const auto box = bounds(chain);
   const double half = half_flat(wall, face);
-  const double beyond =
-      std::max(offset + box.most.y() - half, -half - offset - box.least.y());
+  const double beyond = std::max(offset + box.most.y() - half, -half - offset - box.least.y());
   if (beyond <= kOnFlat) return {};
   return wall.outer().at(wall.outer().on_face(face, offset)).s;
 }
@@ -119,8 +118,8 @@ std::optional<Issue> beyond_flat(const Spec& spec, const Layout& layout, std::si
     const auto face = "the flat of face " + std::to_string(one.face);
     Issue out{.code = ErrorCode::out_of_range,
               .hint = one.name + " reaches " + brief(beyond) + " mm beyond " + face +
-                      ", which is " + brief(2.0 * half) +
-                      " mm wide; no " + kind_of(spec) + " goes over a corner"};
+                      ", which is " + brief(2.0 * half) + " mm wide; no " + kind_of(spec) +
+                      " goes over a corner"};
     if (reach.to - reach.from > 2.0 * half) {
       out.member = layout.mould_of(one).cone ? "countersink/diameter" : "shape";
       out.got = reach.to - reach.from;

@@ -175,9 +175,8 @@ Run Maker::run(const Segment& s) const {
   if (!s.arc() || !s.hollow()) return out;
   double most = 0.0;
   for (const auto& row : out.rows) most = std::max(most, std::abs(row.edge.y()));
-  const double least = laying_.over() != nullptr
-                           ? least_of(s)
-                           : least_radius(laying_, cutting_.kerf, most);
+  const double least =
+      laying_.over() != nullptr ? least_of(s) : least_radius(laying_, cutting_.kerf, most);
   out.lost = s.radius < least * (1.0 - 1e-9);
   return out;
 }
@@ -343,8 +342,8 @@ Result<bevel::Hole> rows(const Laying& laying, const Chain& chain, const Cutting
     out.torch_phi.push_back(
         laying.phase(prism ? laying.turn(torch.y(), outer) : torch.y() / outer));
     // The axis of a beam that is square to the wall, or along the prism.
-    out.torch_phi_inner.push_back(laying.phase(
-        prism ? laying.turn(torch.y(), inner) : laying.square_on_bore(torch.y())));
+    out.torch_phi_inner.push_back(
+        laying.phase(prism ? laying.turn(torch.y(), inner) : laying.square_on_bore(torch.y())));
     out.torch_z.push_back(torch.x());
   }
   out.z_inner = out.z;

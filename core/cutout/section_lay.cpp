@@ -28,8 +28,7 @@ double swept_to(const section::Curve& curve, double s) {
       if (!(to > from)) return 0.0;
       if (!segment.is_arc()) return 0.5 * segment.normal.dot(segment.origin) * (to - from);
       const auto tangent = [&](double at) {
-        const auto turn =
-            elementary::sincos(segment.nu + (at - segment.from) / segment.radius);
+        const auto turn = elementary::sincos(segment.nu + (at - segment.from) / segment.radius);
         return Vector2d(-turn.sin, turn.cos);
       };
       return 0.5 * (segment.radius * (to - from) -
@@ -61,10 +60,10 @@ Sight::Sight(const section::Curve& curve, const Station& from)
     if (segment.is_arc())
       most = std::max(most, segment.origin.dot(tangent_) + segment.radius);
     else
-      most = std::max({most, segment.origin.dot(tangent_),
-                       (segment.origin + segment.length * Vector2d(-segment.normal.y(),
-                                                                   segment.normal.x()))
-                           .dot(tangent_)});
+      most = std::max(
+          {most, segment.origin.dot(tangent_),
+           (segment.origin + segment.length * Vector2d(-segment.normal.y(), segment.normal.x()))
+               .dot(tangent_)});
   }
   breaks_.push_back(most);
 }
@@ -236,8 +235,7 @@ class WallEdge {
     const auto at = wall.outer().at(s);
     const auto across = wall.across(at);
     foot_ = across.bore.point;
-    const double slope =
-        across.bore.normal.dot(at.tangent()) / across.bore.normal.dot(at.normal);
+    const double slope = across.bore.normal.dot(at.tangent()) / across.bore.normal.dot(at.normal);
     way_ = (1.0 - at.curvature * across.wall) * (at.tangent() - slope * at.normal);
   }
 
@@ -356,8 +354,8 @@ std::vector<double> cells(const Segment& s) {
   constexpr int kMiddle = 4, kFiner = 8;
   constexpr double kPlacesATurn = 40.0, kRatio = 0.3;
   const int count =
-      s.arc() ? std::max(kMiddle, static_cast<int>(std::ceil(kPlacesATurn * std::abs(s.sweep) /
-                                                             kTwoPi)))
+      s.arc() ? std::max(kMiddle,
+                         static_cast<int>(std::ceil(kPlacesATurn * std::abs(s.sweep) / kTwoPi)))
               : kMiddle;
   std::vector<double> out;
   const double cell = 1.0 / count;

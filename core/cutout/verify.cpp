@@ -74,8 +74,8 @@ Vector3d on_section(const Mould& mould, bool outer, double phase, double z) {
   const auto& over = *mould.laying.over();
   const auto& curve = outer ? over.wall().outer() : over.wall().bore();
   const double rho = outer ? mould.laying.outer() : mould.laying.inner();
-  const double from = (outer ? over.anchor().s : over.anchor().s_bore) -
-                      (mould.laying.far() ? kPi * rho : 0.0);
+  const double from =
+      (outer ? over.anchor().s : over.anchor().s_bore) - (mould.laying.far() ? kPi * rho : 0.0);
   const auto p = curve.at(from + rho * phase).point;
   return {p.x(), p.y(), z};
 }

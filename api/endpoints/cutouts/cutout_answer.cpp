@@ -69,8 +69,7 @@ void encode_cone(const cutout::Cone& cone, double wall, Writer& w) {
   });
 }
 
-Columns columns_of(const CutoutsOfPart& part, const cutout::Mould& mould,
-                   const bevel::Hole& rows) {
+Columns columns_of(const CutoutsOfPart& part, const cutout::Mould& mould, const bevel::Hole& rows) {
   if (part.section == nullptr) return cutout_columns(rows);
   return mould.laying.over() != nullptr ? corner_cutout_columns(rows, *part.section)
                                         : flat_cutout_columns(rows, *part.section);

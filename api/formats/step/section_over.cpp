@@ -18,10 +18,10 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using section::Station;
 
-constexpr double kFlat = 1e-7;   // mm, of four points from a plane
-constexpr double kSame = 1e-9;   // mm, between two rows at one place
-constexpr double kSeam = 1e-6;   // mm, of a row from a seam
-constexpr double kTurn = 1e-9;   // rad: below it an edge is a line
+constexpr double kFlat = 1e-7;  // mm, of four points from a plane
+constexpr double kSame = 1e-9;  // mm, between two rows at one place
+constexpr double kSeam = 1e-6;  // mm, of a row from a seam
+constexpr double kTurn = 1e-9;  // rad: below it an edge is a line
 
 Vector3d place(const Station& at, double z) { return {at.point.x(), at.point.y(), z}; }
 
@@ -167,21 +167,20 @@ OverCutout add_over_cutout(const section::Wall& wall, const cutout::Layout& layo
   }
   for (std::size_t i = 0; i < n; ++i) {
     const auto j = (i + 1) % n;
-    const auto upper =
-        curve(outer[i], rows[i].z, outer[j], rows[j].z, wall.outer().corner());
+    const auto upper = curve(outer[i], rows[i].z, outer[j], rows[j].z, wall.outer().corner());
     const auto lower =
         curve(bore[i], rows[i].z_bore, bore[j], rows[j].z_bore, wall.bore().corner());
     const auto above = add_edge(first + 2 * i, first + 2 * j, upper, solid);
     const auto below = add_edge(first + 2 * i + 1, first + 2 * j + 1, lower, solid);
     out.outside.edges.push_back(above);
     out.bore.edges.push_back(below);
-    Brep::Face face{.name = name,
-                    .surface = {},
-                    .cut = true,
-                    .loops = {{{above, false}, {sides[i], true}, {below, true}, {sides[j], false}}}};
+    Brep::Face face{
+        .name = name,
+        .surface = {},
+        .cut = true,
+        .loops = {{{above, false}, {sides[i], true}, {below, true}, {sides[j], false}}}};
     const bool straight = upper.size() == 2 && lower.size() == 2;
-    const auto plane =
-        straight ? plane_of({upper[1], upper[0], lower[0], lower[1]}) : std::nullopt;
+    const auto plane = straight ? plane_of({upper[1], upper[0], lower[0], lower[1]}) : std::nullopt;
     if (plane)
       face.surface = *plane;
     else
@@ -201,9 +200,10 @@ std::vector<std::size_t> SeamPieces::add(double s, std::size_t start, std::size_
       const double before = std::remainder(border.s[(i + n - 1) % n] - s, girth_);
       const double after = std::remainder(border.s[(i + 1) % n] - s, girth_);
       if (std::abs(before) <= kSeam || std::abs(after) <= kSeam)
-        throw UnfitOption{"format", "step prints no cut-out with an edge along the line where a "
-                                    "flat and a corner meet, as of " +
-                                        names_ + "; move it by 0.01 mm round"};
+        throw UnfitOption{"format",
+                          "step prints no cut-out with an edge along the line where a "
+                          "flat and a corner meet, as of " +
+                              names_ + "; move it by 0.01 mm round"};
       if (before * after < 0.0) between.push_back(border.vertices[i]);
     }
   }

@@ -63,8 +63,7 @@ class Builder {
         over_names_ = over_names_.empty() ? name : over_names_ + ", " + name;
         continue;
       }
-      cutouts_.push_back(
-          add_cutout(wall_, layout, layout.instances[i], name, out_));
+      cutouts_.push_back(add_cutout(wall_, layout, layout.instances[i], name, out_));
     }
     for (const bool outer : {true, false}) {
       ask();
@@ -244,9 +243,7 @@ class Builder {
     const auto& seams = seams_[outer ? 0 : 1];
     const auto& curve = outer ? wall_.outer() : wall_.bore();
     const SeamPieces pieces(curve, over_[outer ? 0 : 1], over_names_);
-    const auto own = [&](double s) {
-      return outer ? s : wall_.across(wall_.outer().at(s)).bore.s;
-    };
+    const auto own = [&](double s) { return outer ? s : wall_.across(wall_.outer().at(s)).bore.s; };
     std::vector<std::array<std::size_t, 2>> rows;  // of each seam, at both ends
     std::vector<std::vector<std::size_t>> sides;   // the edges there, from start to finish
     for (const double s : seams) {
