@@ -125,9 +125,15 @@ TEST(SectionPartCutouts, EveryProblemIsAtItsField) {
   expect(R"({"z_mm": 300, "face": 5})", "", "/cutouts/0/at/face", "out_of_range");
   expect(R"({"z_mm": 300, "face": 1, "offset_mm": 40})", "", "/cutouts/0/at/offset_mm",
          "out_of_range");
-  expect(R"({"z_mm": 300, "face": 1, "offset_mm": 10})", "", "/cutouts/0/at/offset_mm",
-         "out_of_range");
-  expect(R"({"z_mm": 300, "girth_mm": 16})", "", "/cutouts/0/at/girth_mm", "out_of_range");
+  // A slit does not go over a corner.
+  const auto slit = [&](const std::string& at, const char* pointer) {
+    const auto text = R"({"id": "a", "shape": {"kind": "slit", "length_mm": 11, "angle_deg": 90},
+                          "at": {"z_mm": 300, )" +
+                      at + "}}";
+    expect_refused(kParts, with_cutout(text.c_str()), pointer, "out_of_range");
+  };
+  slit(R"("face": 1, "offset_mm": 10)", "/cutouts/0/at/offset_mm");
+  slit(R"("girth_mm": 16)", "/cutouts/0/at/girth_mm");
   expect(R"({"z_mm": 300, "girth_mm": 0, "offset_mm": 1})", "", "/cutouts/0/at/offset_mm",
          "unsupported_combination");
   expect(R"({"z_mm": -30, "face": 1})", "", "/cutouts/0/at/z_mm", "cutout_off_part");

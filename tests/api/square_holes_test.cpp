@@ -363,7 +363,7 @@ TEST(SquareHoles, EveryProblemIsAtItsField) {
   };
   refused("tilt", Json{"free"}, "tilt", "bad_choice");
   refused("groove", parsed(R"({"rule": "none"})"), "groove/rule", "bad_choice");
-  refused("branch/width_mm", Json{52.0}, "branch", "out_of_range");
+  refused("branch/width_mm", Json{54.0}, "branch", "open_profile");
   expect_refused(kParts,
                  with(with(body, "holes/0/branch/axis/direction", parsed("[0, 0, 1]")),
                       "holes/0/branch/up", parsed("[1, 0, 0]")),

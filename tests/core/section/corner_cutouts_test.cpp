@@ -56,8 +56,8 @@ double in_bore(const section::Section& s, const Vector2d& p) {
 }
 /// How far from `from`, which lies within, a line leaves what `off` is negative in.
 template <class F>
-double leaves(const Vector2d& from, const Vector2d& way, const F& off) {
-  double low = 0.0, high = 500.0;
+double leaves(const Vector2d& from, const Vector2d& way, const F& off, double high = 500.0) {
+  double low = 0.0;
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
     (off(from + middle * way) < 0.0 ? low : high) = middle;
@@ -229,8 +229,8 @@ double depth_at(const section::Section& s, const section::Station& anchor, Wall 
   // Square to the outside: the wall's line sweeps less deeper in.
   const auto curve = s.outer();
   const auto at = curve.at(anchor.s + b);
-  const double thick =
-      leaves(at.point, -at.normal, [&](const Vector2d& p) { return -in_bore(s, p); });
+  const double thick = leaves(
+      at.point, -at.normal, [&](const Vector2d& p) { return -in_bore(s, p); }, 2.0 * s.wall);
   return thick - 0.5 * at.curvature * thick * thick;
 }
 
@@ -387,7 +387,7 @@ TEST(CornerCutouts, AreRefusedWithTheirLimit) {
   EXPECT_EQ(error_of(spec, 0.3).member, "none");
   spec.wall = Wall::developed;
   // The beam is wider beside the bore of so tight a corner.
-  EXPECT_EQ(error_of(spec, 1.5).member, "cutouts/0/shape");
+  EXPECT_EQ(error_of(spec, 1.5).member, "cutouts/0/shape/diameter");
   EXPECT_EQ(error_of(spec, 4.1).member, "cutouts/0/shape");
   EXPECT_EQ(std::get<double>(error_of(spec, 4.1).limit), 4.0);
   spec.wall = Wall::normal;
