@@ -229,6 +229,33 @@ class SectionFiles(FormatTest):
                 holes += openings
         self.assertGreater(holes, 10)
 
+    def test_step_of_cut_outs_over_corners_is_one_solid_and_nc1_is_refused(self):
+        """A hole in a corner, a window laid over two faces and a slot whose torch leans."""
+        solids = 0
+        for number in range(12):
+            target, (_, width, wall, corner, _) = drawn_section(self.rng)
+            middle = width / 2 - corner + corner * math.pi / 4
+            cutouts = [{"id": "vent", "shape": {"kind": "circle", "diameter_mm": 2 * wall + 4}, "at": {"z_mm": 100, "girth_mm": middle}, "wall": "through"},
+                       {"id": "window", "shape": {"kind": "rectangle", "along_mm": 30, "round_mm": 2 * corner + 10, "corner_radius_mm": 2},
+                        "at": {"z_mm": 200, "girth_mm": middle + self.rng.uniform(-4, 4)}, "wall": "developed"},
+                       {"id": "slot", "shape": {"kind": "slot", "length_mm": 30, "width_mm": 8, "angle_deg": self.rng.uniform(0, 30)},
+                        "at": {"z_mm": 300, "girth_mm": middle + 1}, "tilt": "free"}]
+            body = {"target": {**target, "length_mm": 400}, "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+                    "cutouts": cutouts, "kerf_mm": 0.2}
+            status, _, content = self.service.ask("parts", body)
+            if status == 422:  # a bore too narrow for one of them
+                continue
+            answer = json.loads(content)
+            with self.subTest(number, target=target):
+                solid = step_reader.Solid(step_reader.File(self.service.text("parts", body, "format=step").decode("ascii")))
+                self.assertEqual(step_reader.faults(solid, 1 + 4), [])
+                self.assertAlmostEqual(step_volume.volume(solid) / answer["result"]["lengths"]["volume_mm3"], 1, delta=2e-5)
+                status, _, content = self.service.ask("parts", body, "format=nc1")
+                self.assertEqual(status, 422)
+                self.assertIn(b"goes over a corner", content)
+                solids += 1
+        self.assertGreater(solids, 3)
+
     def drawn_step_part(self):
         rng = self.rng
         target, lengths = drawn_section(rng)
