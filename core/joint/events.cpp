@@ -11,8 +11,7 @@ namespace {
 
 using detail::phase_distance;
 
-constexpr double kContinuous = 1e-7;  // relative; noise of z at a silhouette is its square root
-constexpr double kBeside = 1e-9;      // rad
+constexpr double kBeside = 1e-9;  // rad
 
 class Divider {
  public:
@@ -77,7 +76,7 @@ class Divider {
                 .z_to = continued_sheet(cutters_[to], line),
                 .from = from,
                 .to = to};
-    const double noise = kContinuous * std::max(found_.size_of(from), found_.size_of(to));
+    const double noise = std::max(found_.noise_of(from), found_.noise_of(to));
     const bool jumps = std::abs(event.z_to - event.z_from) > noise;
     event.kind = from == to ? EventKind::kink : jumps ? EventKind::jump : EventKind::junction;
     if (event.kind == EventKind::junction) {

@@ -490,4 +490,38 @@ TEST(EverydayTables, ATubeThatLiesOnAnotherIsNotCutByIt) {
     }
 }
 
+/// Coordinates with three decimals turn the side faces of a chord that stand along the brace by a
+/// hair: a generator that grazes one meets it over all its width, or only at its corner.
+TEST(EverydayTables, FacesThatStandAlmostAlongTheTubeAreMetWhereTheyAre) {
+  const auto ask = [](const std::string& cutters, double diameter) {
+    return post("/v1/intersections",
+                *api::parse(R"({"target": {"wall_mm": 3, "outer_diameter_mm": )" +
+                            std::to_string(diameter) + R"(}, "sampling": {"tolerance_mm": 0.02},
+                           "cutters": [)" +
+                            cutters + "]}"));
+  };
+  for (const char* t : {"0", "1e-17", "3e-16", "1e-13", "1e-10", "1.8928e-08", "1e-7",
+                        "1.765972e-06", "-1.765972e-06", "2e-5"}) {
+    const std::string tilt = t, minus = t[0] == '-' ? tilt.substr(1) : "-" + tilt;
+    const auto truss = ask(R"({"kind": "rectangular_tube", "width_mm": 40, "height_mm": 60,
+          "corner_radius_mm": 6, "up": [0, -0.464828407376, -0.885400785904],
+          "axis": {"point_mm": [0, 0, 0],
+                   "direction": [)" +
+                               tilt + R"(, 0.885400785914, -0.464828407372]}},
+         {"kind": "plane", "point_mm": [0, 17.711602, -9.298451],
+          "normal": [)" + minus +
+                               ", -0.885400785914, 0.464828407372]}",
+                           41.9);
+    EXPECT_FALSE(truss.outcome.error) << tilt << truss.outcome.body.substr(0, 600);
+    const auto corner = ask(R"({"kind": "tube", "outer_diameter_mm": 48.26,
+          "inclination_deg": 50.1944258746, "clocking_deg": 180, "offset_mm": 0, "height_mm": 0},
+         {"kind": "rectangular_tube", "width_mm": 30, "height_mm": 30, "corner_radius_mm": 4,
+          "axis": {"point_mm": [0, 0, 0],
+                   "direction": [)" +
+                                tilt + R"(, -0.640184440333, 0.768221245707]}, "up": [1, 0, 0]})",
+                            41.9);
+    EXPECT_FALSE(corner.outcome.error) << tilt << corner.outcome.body.substr(0, 600);
+  }
+}
+
 }  // namespace tubecut::testing::everyday_tables

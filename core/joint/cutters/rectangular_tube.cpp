@@ -78,7 +78,7 @@ Leaving leaving(const CrossSection& s) {
   };
   for (const Eigen::Index i : {0, 1}) {
     const Eigen::Index j = 1 - i;
-    if (s.w[i] == 0.0) continue;
+    if (std::abs(s.w[i]) < kUpright) continue;
     const double side = s.w[i] > 0.0 ? 1.0 : -1.0;
     const double z = (side * (s.inner[i] + s.c) - s.o[i]) / s.w[i];
     if (std::abs(s.o[j] + z * s.w[j]) > s.inner[j] + slack) continue;
