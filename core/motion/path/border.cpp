@@ -142,6 +142,7 @@ class BorderCurve {
 
  private:
   static constexpr double kCorner = 0.94;  // cosine of 20 deg
+  static constexpr double kUneven = 2.0;   // between the lengths of two chords
 
   [[nodiscard]] std::size_t segments() const { return spots_.size() - 1; }
   [[nodiscard]] Spot chord(std::size_t i) const {
@@ -154,13 +155,65 @@ class BorderCurve {
 
   /// Returns the tangent at knot `k` for the adjacent segment `own`.
   [[nodiscard]] Spot tangent(std::size_t k, std::size_t own) const {
-    const std::size_t before = k == 0 ? segments() - 1 : k - 1;
-    const std::size_t after = k == segments() ? 0 : k;
-    const double a = length(before), b = length(after);
-    if (a == 0.0 || b == 0.0 || track_.points[k].corner || seam_[k]) return slope(own);
+    const std::size_t before = before_of(k), after = after_of(k);
+    if (length(before) == 0.0 || length(after) == 0.0 || is_marked(k)) return slope(own);
     const Spot m = slope(before), n = slope(after);
-    if (m[0] * n[0] + m[1] * n[1] < kCorner) return slope(own);
-    return mixed(b / (a + b), m, a / (a + b), n);
+    if (is_sharp(m, n)) return slope(own);
+    const double share = share_before(k);
+    return mixed(1.0 - share, m, share, n);
+  }
+
+  [[nodiscard]] std::size_t before_of(std::size_t k) const {
+    return k == 0 ? segments() - 1 : k - 1;
+  }
+  [[nodiscard]] std::size_t after_of(std::size_t k) const { return k == segments() ? 0 : k; }
+  [[nodiscard]] bool is_marked(std::size_t k) const { return track_.points[k].corner || seam_[k]; }
+  [[nodiscard]] static bool is_sharp(const Spot& m, const Spot& n) {
+    return m[0] * n[0] + m[1] * n[1] < kCorner;
+  }
+
+  /// Returns the turn of the chords at knot `k`, to the left; 0 where a chord has no length.
+  [[nodiscard]] double turn(std::size_t k) const {
+    const std::size_t before = before_of(k), after = after_of(k);
+    if (length(before) == 0.0 || length(after) == 0.0) return 0.0;
+    const Spot m = slope(before), n = slope(after);
+    return elementary::atan2(m[0] * n[1] - m[1] * n[0], m[0] * n[0] + m[1] * n[1]);
+  }
+
+  /// Returns the fraction of the turn at knot `k` that the curve makes before it: that of the
+  /// parabola through three points, unless one chord is much longer than the other.
+  [[nodiscard]] double share_before(std::size_t k) const {
+    const double a = length(before_of(k)), b = length(after_of(k));
+    if (a > kUneven * b) return share_of_longer(before_of(k), k, after_of(k));
+    if (b > kUneven * a) return 1.0 - share_of_longer(after_of(k), k, before_of(k));
+    return a / (a + b);
+  }
+
+  /// Returns the fraction of the turn at knot `k` along the longer of its two chords. A straight
+  /// edge next to an arc has one long chord next to short ones, and the parabola would bend it. So
+  /// the curvature comes from one side: from the longer chord's other end if the chord there is not
+  /// short too, else from the shorter chord's if the one there is as short. Without either, the two
+  /// chords deviate from the curve by the same.
+  [[nodiscard]] double share_of_longer(std::size_t longer, std::size_t k,
+                                       std::size_t shorter) const {
+    const double here = turn(k), a = length(longer), b = length(shorter);
+    if (here == 0.0) return 0.0;
+    const auto beyond = [&](std::size_t chord) {
+      const bool forwards = chord == after_of(k);
+      const std::size_t knot = forwards ? chord + 1 : chord;
+      return std::pair{knot, forwards ? after_of(knot) : before_of(knot)};
+    };
+    const auto part = [&](double of, double next, std::size_t knot) {
+      return of * turn(knot) / ((of + next) * here);
+    };
+    const auto [far, last] = beyond(longer);
+    if (!is_marked(far) && kUneven * length(last) >= a && !is_sharp(slope(longer), slope(last)))
+      return std::clamp(part(a, length(last), far), 0.0, 1.0);
+    const auto [near, next] = beyond(shorter);
+    const double c = length(next), own = part(b, c, near);
+    const bool alike = c <= kUneven * b && b <= kUneven * c;
+    if (!is_marked(near) && alike && own > 0.0) return 1.0 - std::min(1.0, own);
+    return b / (a + b);
   }
 
   const Track& track_;
