@@ -57,3 +57,19 @@ def part(r):
     if holes:
         out["holes"] = holes
     return out
+
+
+def window(r):
+    """(a rectangle with rounded corners, kerf_mm, lead_mm, overcut_mm or None): often an overcut that ends in a corner."""
+    along, wide, corner, kerf = r.choice([12, 20, 30, 40, 60, 80]), r.choice([12, 20, 30, 40, 60]), r.choice([1, 2, 3, 4, 5, 6]), r.choice([0.2, 0.3, 1, 1.5])
+    corner = max(corner, kerf)  # half of it would leave the beam no room on the inner wall
+    lead = r.choice([1, 2, 3, 4, 6, corner, 1.1 * corner, 1.5 * corner, 2 * corner])
+    overcut = r.choice([None, r.uniform(0, 30), along / 2 - corner + 1.6 * corner * r.random(), wide / 2 - corner + 1.6 * corner * r.random()])
+    return {"kind": "rectangle", "along_mm": along, "round_mm": wide, "corner_radius_mm": corner}, kerf, round(lead, 3), overcut
+
+
+def beyond_window(shape, x, y):
+    """How far a place from the middle of a drawn window, along and round, is beyond its edge, by its sides and arcs; negative: within it."""
+    corner = shape["corner_radius_mm"]
+    qx, qy = abs(x) - (shape["along_mm"] / 2 - corner), abs(y) - (shape["round_mm"] / 2 - corner)
+    return math.hypot(max(qx, 0), max(qy, 0)) + min(max(qx, qy), 0) - corner

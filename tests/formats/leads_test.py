@@ -227,6 +227,26 @@ class Leads(FormatTest):
                     self.assertFalse(middle and shape in windows)
                     self.assertTrue(middle or shape in windows or shape["diameter_mm"] > 10)
 
+    def test_leads_of_windows_stay_off_the_window_that_was_drawn(self):
+        """Its straight sides and arcs, not the rows: wherever the overcut ends, and however large the lead is against the corner."""
+        dice, worst, middles, windows = random.Random(drawing_seed() + 4), -9.0, 0, 150
+        for k in range(windows):
+            shape, kerf, lead, overcut = drawn_parts.window(dice)
+            tolerance = dice.choice([0.002, 0.01, 0.05])
+            body = {"preset": "tube_laser", "target": {"outer_diameter_mm": 114.3, "wall_mm": 5, "length_mm": 400}, "kerf_mm": kerf,
+                    "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}}, "sampling": {"tolerance_mm": tolerance},
+                    "cutouts": [{"id": "w", "shape": shape, "wall": "developed", "at": {"z_mm": 200, "phi_deg": 30}}]}
+            options = {"speed_mm_min": 600, "lead_mm": lead, "overcut_mm": overcut, "pivot_length_mm": 0}
+            with self.subTest(f"{options} {json.dumps(body)}"):
+                program = self.service.text("parts", body, query(options)).decode("ascii")
+                cut = torch_program.replay(program, 57.15, 0)[0]
+                beyond = [drawn_parts.beyond_window(shape, p.z - 200, 57.15 * math.radians((p.phi + 150) % 360 - 180)) + kerf / 2 for p in cut.places]
+                middles += "from the middle of the scrap" in program
+                worst = max(worst, *beyond)
+                self.assertLess(max(beyond), 0.02 + tolerance + 1e-3)
+        print(f"{windows} windows, {middles} from the middle; at most {worst:.4f} mm beyond the edge")
+        self.assertLess(middles, 0.4 * windows)
+
     def check(self, cut, line):
         check_cut(cut, line)
         flat = [line.flat((p.phi, p.z, p.b, p.a), False) for p in cut.places]

@@ -5,6 +5,7 @@ import math
 import random
 import re
 
+import drawn_parts
 from gcode_test import moves
 from service import ROOT, FormatTest, main
 
@@ -198,6 +199,28 @@ class SectionProgram(FormatTest):
                 for at in cuts[group["id"]]:
                     x, y, z, *_ = torch(at, 0)
                     self.assertTrue(low[0] - 0.12 <= y <= high[0] + 0.12 and low[1] - 0.12 <= z <= high[1] + 0.12, f"{group['id']}: {at}")
+
+    def test_leads_of_windows_stay_off_the_window_that_was_drawn(self):
+        """Its straight sides and arcs, not the rows: wherever the overcut ends, and however large the lead is against the corner."""
+        dice, worst, middles, windows = random.Random(15), -9.0, 0, 150
+        wanted = [({"kind": "rectangle", "along_mm": 12, "round_mm": 20, "corner_radius_mm": 2}, 0.2, 2, None),
+                  ({"kind": "rectangle", "along_mm": 80, "round_mm": 30, "corner_radius_mm": 2}, 0.3, 4, 39.83)]
+        for k in range(windows):
+            shape, kerf, lead, overcut = wanted[k] if k < len(wanted) else drawn_parts.window(dice)
+            tolerance = 0.01 if k < len(wanted) else dice.choice([0.002, 0.01, 0.05])
+            body = {**LASER, "target": {"size": "SHS 100x100x5 EN 10219", "length_mm": 400}, "kerf_mm": kerf, "sampling": {"tolerance_mm": tolerance},
+                    "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+                    "cutouts": [{"id": "w", "shape": shape, "at": {"z_mm": 200, "face": 1}}]}
+            more = f"&lead_mm={lead}" + ("" if overcut is None else f"&overcut_mm={overcut}")
+            with self.subTest(f"{more} {json.dumps(body)}"):
+                program = self.service.text("parts", body, f"format=gcode&speed_mm_min=600&pivot_length_mm=0{more}").decode("ascii")
+                places = [torch(at, 0) for at in next(blocks for name, blocks in cuts_of(program) if "cut-out" in name)]
+                beyond = [drawn_parts.beyond_window(shape, z - 200, y) + kerf / 2 for _, y, z, *_ in places]
+                middles += "from the middle of the scrap" in program
+                worst = max(worst, *beyond)
+                self.assertLess(max(beyond), 0.02 + tolerance + 1e-3)
+        print(f"{windows} windows, {middles} from the middle; at most {worst:.4f} mm beyond the edge")
+        self.assertLess(middles, 0.4 * windows)
 
     def opening(self, name, group, one, torches, outline, girth):
         first = group["instances"][0]
