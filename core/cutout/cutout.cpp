@@ -77,14 +77,14 @@ std::optional<Mould::Line> slit_of(const Spec& spec) {
 }
 
 /// Only a contour has pieces to point at; over corners a beam square to the outside needs more room
-/// than beside the shape's own anchor.
+/// than next to the shape's own anchor.
 void point_at_shape(const Spec& spec, std::vector<Issue>& issues) {
   if (std::holds_alternative<Contour>(spec.shape)) return;
   for (auto& issue : issues) {
     issue.member.clear();
     if (issue.code != ErrorCode::out_of_range || issue.limit.index() == 0) continue;
     issue.hint =
-        "over a corner the beam stands square to the outside and is that much wider beside the "
+        "over a corner the beam is square to the outside and is that much wider next to the "
         "bore, so that its hollows need this radius; make it wider, or cut it by wall normal with "
         "tilt free";
   }

@@ -228,7 +228,7 @@ double SectionLay::most_kerf() const {
 
 namespace {
 
-/// The wall's edge at one place of the outside, as beams beside it see it.
+/// The wall's edge at one place of the outside, as beams next to it see it.
 class WallEdge {
  public:
   WallEdge(const section::Wall& wall, double s, double side) : wall_(wall), s_(s), side_(side) {

@@ -113,7 +113,7 @@ class SectionLay {
 
 /// A chain with its segments divided at these b.
 [[nodiscard]] Chain divided(const Chain& chain, const std::vector<double>& breaks);
-/// A b within a divided segment, beside the break that it may lie on.
+/// A b within a divided segment, next to the break that it may lie on.
 [[nodiscard]] double inside(const Segment& s, double b);
 /// Shares of a divided segment between which Gauss serves: finer towards its ends, where the way
 /// round may bend as a square root does.

@@ -39,7 +39,7 @@ double off_chain(const Mould& mould, std::size_t row) {
     return worst_of({off_cone(laying, *mould.cone, outer), off_cone(laying, *mould.cone, inner)});
   const auto off = [&](double a, double b) { return distance(mould.chain, {a, b}); };
   const double wall = inner.head<2>().normalized().dot(
-      Eigen::Vector2d(-outer.y(), outer.x()));  // 0 where it stands square
+      Eigen::Vector2d(-outer.y(), outer.x()));  // 0 where it is square
   if (laying.parallel()) return worst_of({off(outer.z(), outer.y()), off(inner.z(), inner.y())});
   if (laying.lay() == Lay::bored) return worst_of({off(inner.z(), inner.y()), std::abs(wall)});
   return worst_of(

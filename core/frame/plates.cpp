@@ -108,7 +108,7 @@ Result<void> add_stood(const FrameSpec& spec, const Joined& joined, std::size_t 
     if (plate::encloses(hole.chain, outline.front().from) && plate::gap(hole.chain, outline) > 0.0)
       return fail({.code = ErrorCode::no_contact,
                    .member = joint_path(*one.stated),
-                   .hint = "the member stands in opening " + hole.name + " of " +
+                   .hint = "the member lies within opening " + hole.name + " of " +
                            spec.plates[one.chord].name + " and touches no metal"});
   out.stood.push_back({one.branch, index, at.front, std::move(outline)});
   return {};
@@ -324,7 +324,7 @@ Result<std::vector<Warning>> warnings_of_plates(const FrameSpec& spec, const Joi
         TRY(const auto at, at_plate(spec, *joined.joints[one.joint].stated));
         out.push_back({.code = WarningCode::wall_overhangs,
                        .member = joint::place_of(one.member, at.end),
-                       .detail = "up to " + brief(over) + " mm of the wall stand over opening " +
+                       .detail = "up to " + brief(over) + " mm of the wall lie over opening " +
                                  hole.name + " of " + spec.plates[k].name});
       }
     for (std::size_t i = 0; i < spec.members.size(); ++i) {

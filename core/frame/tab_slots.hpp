@@ -60,7 +60,7 @@ struct FittedTabs {
 /// Errors  at joints/i: joint_contradicts (between: the member with the tabs is not cut on the
 ///         other), unsupported_combination (between/0: a member without faces; kind: another body
 ///         cuts this end too; slot_wall: walls along a tab that leans, or in a round wall one that
-///         is off the middle, or a torch that does not tilt; tab_slots/k/face: it stands askew to a
+///         is off the middle, or a torch that does not tilt; tab_slots/k/face: it lies askew to a
 ///         round chord), slot_too_narrow (clearance: the slot's round corners meet the tab's),
 ///         out_of_range (tab_slots/k/width: beyond the flat, too wide for a round chord, or the
 ///         slot is no wider than the beam; tab_slots/k/offset: beyond the chord's flat or bore, or

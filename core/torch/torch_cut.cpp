@@ -68,7 +68,7 @@ TorchCut hole_cut(const bevel::HoleSpec& spec, const bevel::Hole& hole, std::str
 }
 
 /// Gives places that differ by rounding only the same numbers: in a corner of half the kerf the
-/// torch stands while the edge's rows go round, and a path must not seem to turn back there.
+/// torch is still while the edge's rows go round, and a path must not seem to turn back there.
 void stand_still(motion::CutPath& path) {
   constexpr double kRounding = 1e-9;  // mm
   for (std::size_t i = 1; i < path.phi.size(); ++i) {

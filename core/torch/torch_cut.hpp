@@ -29,7 +29,7 @@ struct TorchCut {
   bool mark = false;
   bool open = false;     // a slit: from its pierce to its end, without leads
   bool on_flat = false;  // a cut-out of a section: the torch keeps the normal of its face
-  /// Of a prism over corners: a tube that stands while the torch runs across cuts it as well.
+  /// Of a prism over corners: a tube that is still while the torch runs across cuts it as well.
   struct Still {
     double phi = 0.0;        // rad, of its anchor
     double turn = 0.0;       // rad, from the normal there to the direction that points up

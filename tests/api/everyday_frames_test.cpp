@@ -132,7 +132,7 @@ TEST(EverydayFrames, MergedPiecesDoNotDependOnHowTheyAreDrawn) {
   }
 }
 
-/// A limit holds where something is measured for it. Those of cut-outs stand in every request of a
+/// A limit holds where something is measured for it. Those of cut-outs are in every request of a
 /// shop; others are refused if nothing is measured for them.
 TEST(EverydayFrames, LimitsHoldForThePartsThatTheyAreMeasuredFor) {
   const std::string tube =

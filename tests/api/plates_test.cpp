@@ -142,9 +142,9 @@ TEST(FramePlates, AWallOverAnOpeningIsReported) {
     return all->empty() ? std::string() : text((*all)[0], "code") + text((*all)[0], "detail");
   };
   EXPECT_EQ(over(0.0, 80.0), "");   // a vent within the bore
-  EXPECT_EQ(over(70.0, 40.0), "");  // a bolt hole beside the post
-  EXPECT_EQ(over(0.0, 84.0), "wall_overhangsup to 1.55 mm of the wall stand over opening h of BP");
-  EXPECT_EQ(over(44.0, 20.0), "wall_overhangsup to 4 mm of the wall stand over opening h of BP");
+  EXPECT_EQ(over(70.0, 40.0), "");  // a bolt hole next to the post
+  EXPECT_EQ(over(0.0, 84.0), "wall_overhangsup to 1.55 mm of the wall lie over opening h of BP");
+  EXPECT_EQ(over(44.0, 20.0), "wall_overhangsup to 4 mm of the wall lie over opening h of BP");
 }
 
 struct Mistake {

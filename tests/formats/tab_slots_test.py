@@ -215,7 +215,7 @@ class TabSlots(FormatTest):
             self.assertEqual(part(answer, name)["request"], part(self.sign, name)["request"])
 
     def test_a_narrow_clearance_holds_the_shoulder_off(self):
-        """The slot's edge, c next to the tab, touches the fillet's circle of half a kerf: the shoulder stands off by what is left of it."""
+        """The slot's edge, c next to the tab, touches the fillet's circle of half a kerf: the shoulder is off by what is left of it."""
         for clearance in (0.05, 0.1, 0.124):
             body = copy.deepcopy(EXAMPLE)
             body["joints"][0].update(clearance_mm=clearance, clearance_thickness_mm=0.2)

@@ -305,7 +305,7 @@ bool any(const std::vector<Json>& of_members) {
 }
 
 /// A limit holds for the parts that it is measured for. Those of cut-outs need none, because a
-/// shop's limits stand in every request; the others need a part that has them.
+/// shop's limits are in every request; the others need a part that has them.
 void check_frame_accepts(Reader& in, const FrameRequest& frame) {
   const auto& spec = frame.spec;
   const bool sound = in.sound("members");

@@ -10,7 +10,7 @@ namespace tubecut::api {
 struct TorchPlace {
   double phi = 0.0, z = 0.0, b = 0.0, a = 0.0;
   bool on_flat = false;  // of a section: the torch keeps the normal of the flat
-  /// Or the tube stands, and the direction that is turned from the normal at phi points up.
+  /// Or the tube is still, and the direction that is turned from the normal at phi points up.
   struct Still {
     double phi = 0.0, turn = 0.0;
   };

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// The chain of an outline encloses metal, that of a hole scrap.
-std::vector<Stroke> outline_strokes(const cutout::Chain& outline) {
+std::vector<WallStroke> outline_strokes(const cutout::Chain& outline) {
   auto out = strokes_of(outline, false);
   for (auto& stroke : out) stroke.hollow = stroke.radius > 0.0 && !stroke.hollow;
   return out;
@@ -29,7 +29,7 @@ Brep plate_solid(const PlateDrawing& plate) {
   Brep::Face back{
       .name = "back",
       .surface = Brep::Plane{plane.anchor - plate.thickness * plane.normal, -plane.normal}};
-  const auto add = [&](std::vector<Stroke> strokes, const std::string& name) {
+  const auto add = [&](std::vector<WallStroke> strokes, const std::string& name) {
     auto border = PrismWall(std::move(strokes), plane, out).add(plate.thickness, name);
     face.loops.push_back(std::move(border.above));
     back.loops.push_back(std::move(border.below));

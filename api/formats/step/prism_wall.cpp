@@ -9,14 +9,14 @@ namespace tubecut::api {
 using cutout::Flat;
 using Eigen::Vector3d;
 
-std::vector<Stroke> strokes_of(const cutout::Chain& chain, bool reversed) {
+std::vector<WallStroke> strokes_of(const cutout::Chain& chain, bool reversed) {
   constexpr double kHalfTurn = 3.2;  // rad, slightly more
-  std::vector<Stroke> out;
+  std::vector<WallStroke> out;
   for (const auto& s : chain) {
     const int parts = s.arc() ? static_cast<int>(std::ceil(std::abs(s.sweep) / kHalfTurn)) : 1;
     for (int i = 0; i < parts; ++i) {
-      Stroke one{.from = s.at(static_cast<double>(i) / parts),
-                 .to = s.at(static_cast<double>(i + 1) / parts)};
+      WallStroke one{.from = s.at(static_cast<double>(i) / parts),
+                     .to = s.at(static_cast<double>(i + 1) / parts)};
       if (s.arc()) {
         one.centre = s.centre;
         one.middle = s.at((i + 0.5) / parts);
@@ -70,7 +70,7 @@ std::size_t PrismWall::add_edge(Brep::Edge edge) {
   return solid_.edges.size() - 1;
 }
 
-std::size_t PrismWall::add_along(const Stroke& stroke, std::size_t from, std::size_t to,
+std::size_t PrismWall::add_along(const WallStroke& stroke, std::size_t from, std::size_t to,
                                  const Vector3d& down) {
   Brep::Edge edge{.from = from, .to = to, .curve = {}};
   if (stroke.radius > 0.0)
@@ -83,7 +83,7 @@ std::size_t PrismWall::add_along(const Stroke& stroke, std::size_t from, std::si
   return add_edge(std::move(edge));
 }
 
-decltype(Brep::Face::surface) PrismWall::surface(const Stroke& stroke) const {
+decltype(Brep::Face::surface) PrismWall::surface(const WallStroke& stroke) const {
   if (stroke.radius > 0.0)
     return Brep::Bore{.centre = plane_.at(stroke.centre),
                       .axis = plane_.normal,

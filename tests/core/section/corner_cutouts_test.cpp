@@ -386,7 +386,7 @@ TEST(CornerCutouts, AreRefusedWithTheirLimit) {
   spec.shape = Circle{2.0 * limit};
   EXPECT_EQ(error_of(spec, 0.3).member, "none");
   spec.wall = Wall::developed;
-  // The beam is wider beside the bore of so tight a corner.
+  // The beam is wider next to the bore of so tight a corner.
   EXPECT_EQ(error_of(spec, 1.5).member, "cutouts/0/shape/diameter");
   EXPECT_EQ(error_of(spec, 4.1).member, "cutouts/0/shape");
   EXPECT_EQ(std::get<double>(error_of(spec, 4.1).limit), 4.0);

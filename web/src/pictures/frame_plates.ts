@@ -1,21 +1,26 @@
 import {rowsOf, type Json, type Row} from '../json';
 import {many, t} from '../language';
 import type {Inspected, Item, Plate, Table, Vector} from '../picture';
+import type {Answer} from '../service';
 import {shownUnit} from '../units';
 import {term} from '../words';
 import {figures, text} from './facts';
-import type {Told} from './frame_items';
 import {add, dot, radians, unitVector, vector} from './geometry';
 
 type Flat = Plate['outline'][number];
+/** An answer with its joints. */
+interface Joined {
+  answer: Answer;
+  joints: Row[];
+}
 
-const platesOf = (given: Told) => rowsOf(given.answer.result['plates']);
+const platesOf = (given: Joined) => rowsOf(given.answer.result['plates']);
 const idsOf = (plate: Row) => plate['ids'] as string[];
 /** "250 × 250 × 20" */
 const size = (plate: Row) => ['width_mm', 'height_mm', 'thickness_mm'].map((key) => text(key, plate[key])).join(' × ');
 
 /** Returns every plate at its place in the world. */
-export function platesIn(given: Told): Plate[] {
+export function platesIn(given: Joined): Plate[] {
   const kinds = new Map(platesOf(given).flatMap((kind) => idsOf(kind).map((id) => [id, kind])));
   return rowsOf(given.answer.request['plates']).flatMap((asked) => {
     const kind = kinds.get(String(asked['id']));
@@ -64,7 +69,7 @@ function arc([x, y]: Flat, radius: number, from: number, turn: number): Flat[] {
   return Array.from({length: count}, (_, i): Flat => [x + radius * Math.cos(at(i)), y + radius * Math.sin(at(i))]);
 }
 
-export function plateTable(given: Told): Table[] {
+export function plateTable(given: Joined): Table[] {
   const plates = platesOf(given);
   if (plates.length === 0) return [];
   const keys = ['area_mm2', 'mass_kg', 'web_mm'];
@@ -91,12 +96,12 @@ export function plateTable(given: Told): Table[] {
 }
 
 /** Returns the different plates, each with the members on it, by their places in the list of items. */
-export function plateItems(given: Told, place: Map<string, number>): Inspected['lists'] {
+export function plateItems(given: Joined, place: Map<string, number>): Inspected['lists'] {
   const plates = platesOf(given);
   return plates.length ? [{id: 'plates', title: t('Plates'), items: plates.map((plate) => plateItem(given, plate, place))}] : [];
 }
 
-function plateItem(given: Told, plate: Row, place: Map<string, number>): Item {
+function plateItem(given: Joined, plate: Row, place: Map<string, number>): Item {
   return {
     name: String(plate['plate']),
     detail: [size(plate), many(Number(plate['count']), '{n} piece', '{n} pieces')].join(t(', ')),
@@ -111,8 +116,8 @@ function plateItem(given: Told, plate: Row, place: Map<string, number>): Item {
   };
 }
 
-export const membersOn = (given: Told, plate: Row): string[] =>
+export const membersOn = (given: Joined, plate: Row): string[] =>
   given.joints.filter((joint) => idsOf(plate).includes(String(joint['chord']))).map((joint) => String(joint['branch']));
 
 /** The members that each plate's item lights up. */
-export const plateLights = (given: Told, placed: (ids: Json[]) => number[]): number[][] => platesOf(given).map((plate) => placed(membersOn(given, plate)));
+export const plateLights = (given: Joined, placed: (ids: Json[]) => number[]): number[][] => platesOf(given).map((plate) => placed(membersOn(given, plate)));
