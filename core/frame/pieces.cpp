@@ -63,6 +63,7 @@ struct In {
     tube.direction = turned(tube.direction);
     tube.point = foot_on_line(frame.local(tube.point), tube.direction);
     tube.up = turned(tube.up);
+    joint::straighten_as_drawn(tube);
     return Partner(tube);
   }
   Result<Partner> operator()(joint::ConeCutter cone) const {

@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 #include "core/frame/frame.hpp"
+#include "core/joint/node/shape.hpp"
 #include "core/joint/node/shared_corner.hpp"
 
 namespace tubecut::frame {
@@ -142,9 +143,17 @@ class Proof {
   void see_box(const Seen& at, const joint::RectangularTubeCutter& box, const joint::Member& other,
                double reach) {
     const Line line{at.origin + at.axes * box.point, at.axes * box.direction.normalized()};
-    worst_.axis.see(beside(line, axis_of(other), at.origin, reach), box.point.norm());
-    const Vector3d across = axis_of(other).unit.cross(*other.up).normalized();
-    worst_.axis.see(reach * std::abs(across.dot(at.axes * box.up.normalized())), box.point.norm());
+    const Vector3d unit = axis_of(other).unit, across = unit.cross(*other.up).normalized();
+    // A side that is along the member but for rounded coordinates is turned along it.
+    double turned = 0.0;
+    for (const Vector3d& normal : {across, Vector3d(across.cross(unit))})
+      if (const double off = std::abs(normal.dot(at.axes.col(2))); off < joint::kDrawnAlong)
+        turned += reach * off;
+    const auto see = [&](double off) {
+      worst_.axis.see(std::max(0.0, off - turned), box.point.norm());
+    };
+    see(beside(line, axis_of(other), at.origin, reach));
+    see(reach * std::abs(across.dot(at.axes * box.up.normalized())));
     if (!other.section) return;
     const double corner = box.corner == joint::detail::kSharpCorner
                               ? 0.0  // shared with another end

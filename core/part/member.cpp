@@ -44,9 +44,10 @@ Result<std::vector<joint::Partner>> partners(const joint::NodeSpec& node, const 
     }
     const auto& m = node.members[cut.member];
     if (cut.box) {
-      auto box = joint::box_of(m, frame);
+      auto box = same ? *cut.box : joint::box_of(m, frame);
       box.corner = cut.box->corner;  // sharp where two ends share it
-      out.emplace_back(same ? *cut.box : box);
+      joint::straighten_as_drawn(box);
+      out.emplace_back(box);
       continue;
     }
     TRY(const auto placed,

@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double kSeam = 1e-12;    // relative; where two surfaces meet tangentially, both are valid
 constexpr double kUpright = 1e-9;  // a steeper face is met only at its corners
+constexpr double kAlongTube = 3e-8;  // rad: sides nearer to the direction of the tube are along it
 constexpr double kLeastCorner = 1e-3;  // mm, of a surface moved inwards by more than its corner
 
 /// The section of prism and generator in the plane across the axis.
@@ -105,6 +106,11 @@ bool misses(const CrossSection& s, const Generator& line) {
   return std::abs(s.offset) > s.support + kTouch * (s.support + line.radius);
 }
 
+RectangularTubeCutter straightened(RectangularTubeCutter box) {
+  box.straighten(kAlongTube);
+  return box;
+}
+
 }  // namespace
 
 Result<PreparedRectangularTube> RectangularTubeCutter::prepare() const {
@@ -113,7 +119,9 @@ Result<PreparedRectangularTube> RectangularTubeCutter::prepare() const {
   const double widest = 0.5 * std::min(width, height);
   if (!(corner > 0.0) || corner > widest)
     return beyond_limit("corner_radius", corner, widest, "mm");
-  TRY(const auto made, nearest_frame(point, direction, up));
+  TRY(nearest_frame(point, direction, up));  // its errors
+  const auto box = straightened(*this);
+  TRY(const auto made, nearest_frame(box.point, box.direction, box.up));
   return PreparedRectangularTube{{}, made.frame, 0.5 * width, 0.5 * height, corner};
 }
 
@@ -121,6 +129,21 @@ void RectangularTubeCutter::grow(double by) {
   width += 2.0 * by;
   height += 2.0 * by;
   corner = std::max(corner + by, std::min(corner, kLeastCorner));
+}
+
+void RectangularTubeCutter::straighten(double within) {
+  Vector3d along = direction.normalized();
+  Vector3d normal = up.cross(along).normalized();
+  for (int side = 0; side < 2; ++side) {
+    if (normal.z() != 0.0 && std::abs(normal.z()) < within) {
+      normal.z() = 0.0;
+      normal.normalize();
+      along = (along - normal.dot(along) * normal).normalized();
+      direction = along;
+      up = side == 0 ? along.cross(normal) : normal;
+    }
+    normal = along.cross(normal);  // from across to up
+  }
 }
 
 void RectangularTubeCutter::turn(const TurnAboutAxis& turn) {
@@ -209,8 +232,9 @@ std::vector<double> PreparedRectangularTube::silhouettes(double rho) const {
 // ---- in space
 
 RectangularTubeSolid RectangularTubeCutter::solid() const {
-  const Vector3d along = direction.normalized();
-  const Vector3d across = up.cross(along).normalized();
+  const auto box = straightened(*this);
+  const Vector3d along = box.direction.normalized();
+  const Vector3d across = box.up.cross(along).normalized();
   return {{}, point, along, across, along.cross(across), 0.5 * width, 0.5 * height, corner};
 }
 

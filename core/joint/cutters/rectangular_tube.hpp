@@ -49,6 +49,9 @@ struct RectangularTubeCutter {
   [[nodiscard]] Solid solid() const;
   void grow(double by);
   void turn(const TurnAboutAxis& turn);
+  /// Turns sides that are along z but for this angle, rad, along it, about `point`. Rounding turns
+  /// them so, and a generator that grazes such a side leaves it anywhere over its width.
+  void straighten(double within);
   [[nodiscard]] std::optional<Bearing> bearing() const { return bearing_of_axis(direction); }
 };
 

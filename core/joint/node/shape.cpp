@@ -182,6 +182,14 @@ RectangularTubeCutter box_of(const Member& member) {
           .up = detail::height_of(member)};
 }
 
+void straighten_as_drawn(RectangularTubeCutter& box) {
+  auto out = box;
+  const Eigen::Vector3d along = out.direction.normalized();
+  out.point -= along.dot(out.point) * along;  // near the end, about which it is turned
+  out.straighten(kDrawnAlong);
+  if (out.direction != box.direction || out.up != box.up) box = out;
+}
+
 RectangularTubeCutter box_of(const Member& member, const MemberFrame& frame) {
   auto out = box_of(member);
   out.point = frame.local(out.point);

@@ -8,6 +8,12 @@
 
 namespace tubecut::joint {
 
+/// Members whose coordinates have three decimals are turned against each other by so much at most,
+/// rad: sides of one that are along the other but for it are taken to be along it.
+inline constexpr double kDrawnAlong = 1e-5;
+/// Does so with a partner of an end, in the end's frame.
+void straighten_as_drawn(RectangularTubeCutter& box);
+
 /// Returns the surface of a member that is not round as a cutter in the world, or in a frame.
 [[nodiscard]] RectangularTubeCutter box_of(const Member& member);
 [[nodiscard]] RectangularTubeCutter box_of(const Member& member, const MemberFrame& frame);
