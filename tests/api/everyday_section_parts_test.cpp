@@ -274,4 +274,26 @@ TEST(EverydaySectionParts, TheBeamSparesStepsBetweenTwoPartners) {
       }
 }
 
+/// A bare grid has no rows where a flat ends, so a gap of a hot-finished tube reaches from the flat
+/// into the corner, where the wall is thicker.
+TEST(EverydaySectionParts, TheBeamSparesGapsThatReachIntoAThickerCorner) {
+  for (const char* points : {"36", "72", "100"})
+    for (const char* kerf : {"0.3", "1.5"})
+      for (const char* cut : {R"("groove": {"rule": "none"}, "root_surface": "outer",
+                                 "contact": "outer")",
+                              R"("groove": {"rule": "half_dihedral", "cap_deg": 40},
+                                 "root_surface": "inner")"}) {
+        const auto answer =
+            post(kParts,
+                 parsed(std::string(R"({"target": {"kind": "rectangular_tube", "height_mm": 41.991,
+                "width_mm": 103.788, "wall_mm": 2.445, "corners": "en_10210", "length_mm": 1025},
+                "ends": {"start": {"smoothing": {"method": "none"}, "cutters": [{"kind": "plane",
+                "point_mm": [-6.351, 0, 3.905], "normal": [0.199, 0.466, 1]}], )") +
+                        cut + R"(}, "finish": {"square_at_mm": 0}}, "kerf_mm": )" + kerf +
+                        R"(, "sampling": {"uniform_points": )" + points + "}}"));
+        EXPECT_FALSE(answer.outcome.error)
+            << points << kerf << cut << answer.outcome.body.substr(0, 400);
+      }
+}
+
 }  // namespace tubecut::testing::everyday_section_parts

@@ -62,8 +62,9 @@ class Beam {
       see(SectionSurface::place(from, depth, z_from), SectionSurface::place(to, depth, z_to));
     };
     edge(0.0, from.outer, to.outer);
-    edge(from.wall - surface_.land(), from.face, to.face);
-    if (surface_.land() > 0.0) edge(from.wall, from.inner, to.inner);
+    // A row may lie beyond the flat, where the wall is thicker.
+    edge(own_.wall - surface_.land(), from.face, to.face);
+    if (surface_.land() > 0.0) edge(own_.wall, from.inner, to.inner);
   }
 
  private:

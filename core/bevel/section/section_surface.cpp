@@ -114,17 +114,16 @@ double drop_on_flat(const SectionSurface& surface, const SectionSurface::Line& o
     const double b = a + surface.width(i);
     const double low = std::max(a, -half), high = std::min(b, half);
     if (!(low <= high)) return;
-    const auto see = [&](double depth) {
-      const double z_a = surface.z(from, depth), z_b = surface.z(to, depth);
+    const auto see = [&](double depth, double z_a, double z_b) {
       const double rise = b > a ? (z_b - z_a) / (b - a) : 0.0;
       const double u = std::clamp(-rise * half / elementary::hypot(secant, rise), low, high);
       const double z = b > a ? z_a + rise * (u - a) : std::min(z_a, z_b);
       best = std::max(best, own.outer - depth * slope - z +
                                 std::sqrt(std::max(0.0, (half - u) * (half + u))) * secant);
     };
-    see(0.0);
-    see(own.wall - surface.land());
-    if (surface.land() > 0.0) see(own.wall);
+    see(0.0, from.outer, to.outer);
+    see(own.wall - surface.land(), from.face, to.face);
+    if (surface.land() > 0.0) see(own.wall, from.inner, to.inner);
   });
   return best;
 }
