@@ -8,6 +8,7 @@
 
 #include "api/endpoints/frames/cutter_fields.hpp"
 #include "api/formats/dxf/plate_dxf.hpp"
+#include "api/formats/step/plate_solid.hpp"
 #include "api/wire/sha256.hpp"
 
 namespace tubecut::api {
