@@ -7,21 +7,31 @@
 
 namespace tubecut::api {
 
-Columns station_columns(std::span<const section::Station> at) {
-  std::vector<double> girth, normal;
+namespace {
+
+/// Adds the columns of places but their way round.
+void add_places(std::span<const section::Station> at, Columns& out) {
+  std::vector<double> normal;
   std::vector<int> face;
   std::vector<bool> on_corner;
   for (const auto& one : at) {
-    girth.push_back(one.s);
     normal.push_back(one.nu);
     face.push_back(one.face);
     on_corner.push_back(one.on_corner);
   }
-  Columns out;
-  out.column("girth_mm", std::move(girth))
-      .degrees("normal_deg", std::move(normal))
+  out.degrees("normal_deg", std::move(normal))
       .integers("face", face)
       .flags("on_corner", std::move(on_corner));
+}
+
+}  // namespace
+
+Columns station_columns(std::span<const section::Station> at) {
+  std::vector<double> girth;
+  for (const auto& one : at) girth.push_back(one.s);
+  Columns out;
+  out.column("girth_mm", std::move(girth));
+  add_places(at, out);
   return out;
 }
 
@@ -114,20 +124,10 @@ Columns corner_cutout_columns(const bevel::Hole& rows, const section::Section& s
   const auto outer = section.outer(), bore = section.bore();
   std::vector<section::Station> at;
   for (const double phi : rows.phi) at.push_back(outer.at(phi / kTwoPi * outer.girth()));
-  std::vector<double> normal;
-  std::vector<int> face;
-  std::vector<bool> on_corner;
-  for (const auto& one : at) {
-    normal.push_back(one.nu);
-    face.push_back(one.face);
-    on_corner.push_back(one.on_corner);
-  }
   Columns out;
-  out.column("girth_mm", girth(rows.phi, outer))
-      .degrees("normal_deg", std::move(normal))
-      .integers("face", face)
-      .flags("on_corner", std::move(on_corner))
-      .column("z_mm", rows.z)
+  out.column("girth_mm", girth(rows.phi, outer));
+  add_places(at, out);
+  out.column("z_mm", rows.z)
       .column("developed_mm", rows.developed)
       .column("girth_inner_mm", girth(rows.phi_inner, bore))
       .column("z_inner_mm", rows.z_inner)

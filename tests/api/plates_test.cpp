@@ -262,4 +262,41 @@ TEST(FramePlates, ATurnedModelInAnotherOrderHasTheSamePartsAndPlates) {
   }
 }
 
+/// An outline drawn in inches is that in mm, and a corner whose number cannot be read is refused at
+/// the outline or at the opening, never read as 0.
+TEST(FramePlates, ADrawnOutlineIsReadAsItIsDrawn) {
+  const auto drawn = [](double unit, double width, double height, const std::string& last) {
+    std::string text = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n";
+    text += unit == 1.0 ? "4" : "1";
+    text += "\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n90\n4\n70\n1\n";
+    const double x = 0.5 * width / unit, y = 0.5 * height / unit;
+    const auto place = [](const std::string& a, double b) {
+      return "10\n" + a + "\n20\n" + std::to_string(b) + "\n";
+    };
+    text += place(std::to_string(-x), -y) + place(std::to_string(x), -y) +
+            place(std::to_string(x), y) + place(last.empty() ? std::to_string(-x) : last, y);
+    return with(parsed(R"({"kind": "dxf"})"), "dxf", Json{text + "0\nENDSEC\n0\nEOF\n"});
+  };
+  const auto asked = [&](const Json& outline, const Json& window) {
+    auto body = with(frame(), "plates/0/outline", outline);
+    auto hole = with(parsed(R"({"id": "window", "at_mm": [70, 60]})"), "shape", window);
+    return post(kFrames, with(body, "plates/0/cutouts", Json{Json::Array{hole}}));
+  };
+  for (const double unit : {1.0, 25.4}) {
+    const auto answer = asked(drawn(unit, 203.2, 177.8, ""), drawn(unit, 25.4, 12.7, ""));
+    ASSERT_FALSE(answer.outcome.error) << answer.outcome.body;
+    EXPECT_NEAR(number(answer.body, "result/plates/0/area_mm2"), 203.2 * 177.8 - 25.4 * 12.7, 1e-2);
+    for (const char* last : {"-100,5", "-100.5mm", "abc", "1e400"}) {
+      const auto outline = asked(drawn(unit, 203.2, 177.8, last), drawn(unit, 25.4, 12.7, ""));
+      const auto* at_outline = error_at(outline, "/plates/0/outline/dxf");
+      ASSERT_NE(at_outline, nullptr) << last << outline.outcome.body;
+      EXPECT_EQ(text(*at_outline, "code"), "bad_text");
+      const auto window = asked(drawn(unit, 203.2, 177.8, ""), drawn(unit, 25.4, 12.7, last));
+      const auto* at_window = error_at(window, "/plates/0/cutouts/0/shape/dxf");
+      ASSERT_NE(at_window, nullptr) << last << window.outcome.body;
+      EXPECT_EQ(text(*at_window, "code"), "bad_text");
+    }
+  }
+}
+
 }  // namespace tubecut::testing::frame_plates

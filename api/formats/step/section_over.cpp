@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "api/formats/step/section_curve.hpp"
 #include "api/wire/format.hpp"
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
@@ -18,44 +19,10 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using section::Station;
 
-constexpr double kFlat = 1e-7;  // mm, of four points from a plane
 constexpr double kSame = 1e-9;  // mm, between two rows at one place
 constexpr double kSeam = 1e-6;  // mm, of a row from a seam
-constexpr double kTurn = 1e-9;  // rad: below it an edge is a line
 
 Vector3d place(const Station& at, double z) { return {at.point.x(), at.point.y(), z}; }
-
-double turned(const Station& from, const Station& to) {
-  return std::remainder(to.nu - from.nu, kTwoPi);
-}
-
-/// A line, or a cubic that is straight in (angle, z).
-Brep::Points curve(const Station& from, double z, const Station& to, double to_z, double radius) {
-  const auto p = place(from, z), q = place(to, to_z);
-  const double angle = turned(from, to);
-  if (std::abs(angle) <= kTurn) return {p, q};
-  const double handle = 4.0 / 3.0 * elementary::tan(angle / 4.0);
-  const auto tangent = [&](const Station& at) {
-    return Vector3d(-radius * at.normal.y(), radius * at.normal.x(), (to_z - z) / angle);
-  };
-  return {p, p + handle * tangent(from), q - handle * tangent(to), q};
-}
-
-Brep::Points as_cubic(const Brep::Points& curve) {
-  if (curve.size() == 4) return curve;
-  const Vector3d third = (curve[1] - curve[0]) / 3.0;
-  return {curve[0], curve[0] + third, curve[1] - third, curve[1]};
-}
-
-std::optional<Brep::Plane> plane_of(const std::vector<Vector3d>& corners) {
-  Vector3d normal = Vector3d::Zero();
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    normal += (corners[i] - corners[0]).cross(corners[(i + 1) % corners.size()] - corners[0]);
-  normal.normalize();
-  for (const auto& p : corners)
-    if (std::abs((p - corners[0]).dot(normal)) > kFlat) return std::nullopt;
-  return Brep::Plane{corners[0], normal};
-}
 
 /// A row of the cut-out's wall.
 struct Row {
@@ -167,9 +134,11 @@ OverCutout add_over_cutout(const section::Wall& wall, const cutout::Layout& layo
   }
   for (std::size_t i = 0; i < n; ++i) {
     const auto j = (i + 1) % n;
-    const auto upper = curve(outer[i], rows[i].z, outer[j], rows[j].z, wall.outer().corner());
-    const auto lower =
-        curve(bore[i], rows[i].z_bore, bore[j], rows[j].z_bore, wall.bore().corner());
+    const auto at = [&](std::size_t row, std::size_t side) {
+      return solid.vertices[first + 2 * row + side];
+    };
+    const auto upper = curve_between(at(i, 0), at(j, 0), outer[i], outer[j], wall.outer().corner());
+    const auto lower = curve_between(at(i, 1), at(j, 1), bore[i], bore[j], wall.bore().corner());
     const auto above = add_edge(first + 2 * i, first + 2 * j, upper, solid);
     const auto below = add_edge(first + 2 * i + 1, first + 2 * j + 1, lower, solid);
     out.outside.edges.push_back(above);

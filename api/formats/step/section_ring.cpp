@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/formats/step/section_curve.hpp"
 #include "core/base/angle.hpp"
 
 namespace tubecut::api {
@@ -36,10 +37,6 @@ bool again(const Across& a, const Across& b) {
 }
 
 }  // namespace
-
-double turned(const section::Station& from, const section::Station& to) {
-  return std::remainder(to.nu - from.nu, kTwoPi);
-}
 
 SectionRing::SectionRing(const section::Wall& wall, const bevel::TableSpec& spec,
                          const bevel::SectionTable& table, const std::vector<double>& seams)

@@ -18,9 +18,6 @@ struct Across {
   std::vector<section::Station> stations;  // of the outside and the bore
 };
 
-/// Returns the angle from one direction to another, the short way.
-[[nodiscard]] double turned(const section::Station& from, const section::Station& to);
-
 /// The rows of one end, with the ends of all flats among them, and arcs divided into pieces of at
 /// most 0.2 rad; a row that is in line with its neighbours on a flat is left out.
 class SectionRing {

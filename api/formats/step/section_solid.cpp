@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "api/formats/drawing/part_edges.hpp"
+#include "api/formats/step/section_curve.hpp"
 #include "api/formats/step/section_cutout.hpp"
 #include "api/formats/step/section_over.hpp"
 #include "api/formats/step/section_ring.hpp"
@@ -21,7 +22,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using section::Station;
 
-constexpr double kFlat = 1e-7;         // mm, of four points from a plane
 constexpr double kLeastRadius = 1e-3;  // mm, of a corner
 
 class Builder {
@@ -95,16 +95,9 @@ class Builder {
     const auto& from = outer ? a.stations.front() : a.stations.back();
     const auto& to = outer ? b.stations.front() : b.stations.back();
     const auto &p = a.points[k], &q = b.points[k];
-    const double angle = turned(from, to);
     const bool inside = k > 0 && k + 1 < a.points.size();  // of the land's edge
-    if (std::abs(angle) <= 1e-9) return {p, q};
-    const double radius = inside ? 0.0 : line.corner();
-    const double handle = 4.0 / 3.0 * elementary::tan(angle / 4.0);
-    const auto tangent = [&](const Station& at) {
-      const double r = inside ? land_radius(p, q, angle) : radius;
-      return Vector3d(-r * at.normal.y(), r * at.normal.x(), (q.z() - p.z()) / angle);
-    };
-    return {p, p + handle * tangent(from), q - handle * tangent(to), q};
+    const double radius = inside ? land_radius(p, q, turned(from, to)) : line.corner();
+    return curve_between(p, q, from, to, radius);
   }
   /// Of the arc through two points on which the normal turns by an angle.
   [[nodiscard]] static double land_radius(const Vector3d& p, const Vector3d& q, double angle) {
@@ -192,30 +185,20 @@ class Builder {
     const std::vector<Vector3d> corners{b.points[k], a.points[k], a.points[k + 1], b.points[k + 1]};
     const bool straight = (!outer || out_.edges[*outer].curve.size() == 2) &&
                           (!inner || out_.edges[*inner].curve.size() == 2);
-    if (const auto plane = straight ? plane_of(corners, finish) : std::nullopt) {
+    if (auto plane = straight ? plane_of(corners) : std::nullopt) {
+      if (finish) plane->normal = -plane->normal;
       face.surface = *plane;
     } else {
       // From s to s, and from the bore outwards: against the metal at the start.
-      face.surface = Brep::Patch{as_cubic(a.points[k + 1], b.points[k + 1], inner),
-                                 as_cubic(a.points[k], b.points[k], outer)};
+      face.surface = Brep::Patch{cubic(a.points[k + 1], b.points[k + 1], inner),
+                                 cubic(a.points[k], b.points[k], outer)};
       face.same = !finish;
     }
     out_.faces.push_back(std::move(face));
   }
-  [[nodiscard]] static std::optional<Brep::Plane> plane_of(const std::vector<Vector3d>& corners,
-                                                           bool finish) {
-    Vector3d normal = Vector3d::Zero();
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      normal += (corners[i] - corners[0]).cross(corners[(i + 1) % corners.size()] - corners[0]);
-    normal.normalize();
-    for (const auto& p : corners)
-      if (std::abs((p - corners[0]).dot(normal)) > kFlat) return std::nullopt;
-    return Brep::Plane{corners[0], finish ? Vector3d(-normal) : normal};
-  }
-  [[nodiscard]] Brep::Points as_cubic(const Vector3d& p, const Vector3d& q,
-                                      const std::optional<std::size_t>& edge) const {
-    if (edge && out_.edges[*edge].curve.size() == 4) return out_.edges[*edge].curve;
-    return {p, p + (q - p) / 3.0, q - (q - p) / 3.0, q};
+  [[nodiscard]] Brep::Points cubic(const Vector3d& p, const Vector3d& q,
+                                   const std::optional<std::size_t>& edge) const {
+    return as_cubic(edge ? out_.edges[*edge].curve : Brep::Points{p, q});
   }
 
   /// The row where the faces on both sides of a seam part: of a jump there, the one with less

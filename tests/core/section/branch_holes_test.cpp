@@ -24,10 +24,6 @@ using Random = std::mt19937;
 constexpr int kPlaces = 360;       // of a branch's outline
 constexpr double kOutline = 3e-4;  // mm: that of arcs for ellipses, and the outline's own margin
 
-double between(Random& random, double from, double to) {
-  return std::uniform_real_distribution<double>(from, to)(random);
-}
-
 /// A place in the local plane of the hole's anchor: along z, and round the tube.
 Flat local(const section::Wall& wall, const Spec& spec, const Vector3d& p) {
   const auto n = section::Curve::face_normal(spec.at.face);

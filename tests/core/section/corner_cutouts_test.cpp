@@ -19,16 +19,7 @@ using api::Json;
 using Eigen::Vector2d;
 using Random = std::mt19937;
 
-double between(Random& random, double from, double to) {
-  return std::uniform_real_distribution<double>(from, to)(random);
-}
-
-section::Section drawn_section(Random& random) {
-  const double height = between(random, 60, 160), width = between(random, 60, 160);
-  const double wall = between(random, 2.5, 6.0);
-  const auto radii = section::corner_radii(static_cast<section::Standard>(random() % 3), wall);
-  return {height, width, wall, radii.outer, radii.inner};
-}
+section::Section drawn_section(Random& random) { return testing::drawn_section(random, 160, 2.5); }
 
 part::SectionPartSpec plain_part(const section::Section& section, std::vector<Spec> cutouts,
                                  double kerf = 0.3) {

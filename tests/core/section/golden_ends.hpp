@@ -1,5 +1,6 @@
 #pragma once
 
+#include <random>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,18 @@ inline section::Section golden_section(const api::Json& json) {
           .wall = number(json, "t"),
           .corner = number(json, "ro"),
           .inner_corner = number(json, "ri")};
+}
+
+inline double between(std::mt19937& random, double from, double to) {
+  return std::uniform_real_distribution<double>(from, to)(random);
+}
+
+/// A tube with sides from 60 mm, its corners by one of the standards.
+inline section::Section drawn_section(std::mt19937& random, double widest, double thinnest) {
+  const double height = between(random, 60, widest), width = between(random, 60, widest);
+  const double wall = between(random, thinnest, 6.0);
+  const auto radii = section::corner_radii(static_cast<section::Standard>(random() % 3), wall);
+  return {height, width, wall, radii.outer, radii.inner};
 }
 
 inline Eigen::Vector3d golden_vector(const api::Json& json, std::string_view name) {

@@ -18,16 +18,7 @@ using namespace cutout;
 using api::Json;
 using Random = std::mt19937;
 
-double between(Random& random, double from, double to) {
-  return std::uniform_real_distribution<double>(from, to)(random);
-}
-
-section::Section drawn_section(Random& random) {
-  const double height = between(random, 60, 200), width = between(random, 60, 200);
-  const double wall = between(random, 2.0, 6.0);
-  const auto radii = section::corner_radii(static_cast<section::Standard>(random() % 3), wall);
-  return {height, width, wall, radii.outer, radii.inner};
-}
+section::Section drawn_section(Random& random) { return testing::drawn_section(random, 200, 2.0); }
 
 /// A part with square ends: z counts from the start.
 part::SectionPartSpec plain_part(const section::Section& section, std::vector<Spec> cutouts) {
