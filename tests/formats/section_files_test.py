@@ -432,5 +432,23 @@ class SectionFiles(FormatTest):
             self.assertEqual((status, name in content.decode()), (422, True), content)
 
 
+    def test_a_packet_says_which_file_cannot_carry_an_opening_over_a_corner(self):
+        """A member drawn from either end; its other files and the other part are all there."""
+        for ends in (([0, 0, 0], [0, 0, 900]), ([0, 0, 900], [0, 0, 0])):
+            vent = {"id": "vent", "shape": {"kind": "circle", "diameter_mm": 12}, "at": {"z_mm": 60, "girth_mm": 37.8}}
+            post = {"id": "post", "start_mm": ends[0], "end_mm": ends[1], "up": [1, 0, 0], "size": "SHS 80x80x4 EN 10219", "cutouts": [vent]}
+            rail = {"id": "rail", "start_mm": [0, 0, 450], "end_mm": [700, 0, 450], "up": [0, 0, 1], "size": "SHS 40x40x3 EN 10219"}
+            body = {"preset": "tube_laser", "kerf_mm": 0.3, "sampling": {"tolerance_mm": 0.05}, "members": [post, rail], "connect": {"within_mm": 5}}
+            content = self.service.text("frames", body, "format=zip&files=nc1,step,dxf")
+            with zipfile.ZipFile(io.BytesIO(content)) as packet:
+                parts = {row["part"]: row for row in json.loads(packet.read("manifest.json"))["parts"]}
+            files = {name: {file["format"] for file in row["files"]} for name, row in parts.items()}
+            self.assertLessEqual({"step", "dxf"}, files["post"])
+            self.assertLessEqual({"nc1", "step", "dxf"}, files["rail"])
+            [left] = parts["post"]["left_out"]
+            self.assertEqual((left["format"], parts["rail"]["left_out"]), ("nc1", []))
+            self.assertIn("vent goes over a corner", left["errors"][0]["hint"])
+
+
 if __name__ == "__main__":
     main()
