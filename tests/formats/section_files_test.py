@@ -431,7 +431,6 @@ class SectionFiles(FormatTest):
             status, _, content = self.service.ask("bevel-tables", body, query)
             self.assertEqual((status, name in content.decode()), (422, True), content)
 
-
     def test_a_packet_says_which_file_cannot_carry_an_opening_over_a_corner(self):
         """A member drawn from either end; its other files and the other part are all there."""
         for ends in (([0, 0, 0], [0, 0, 900]), ([0, 0, 900], [0, 0, 0])):
