@@ -211,7 +211,9 @@ std::array<bool, 4> grazed_faces(const PreparedCutter& cutter, const section::Cu
     };
     const auto from = sides(-0.5 * half), to = sides(0.5 * half);
     if (!from) continue;
-    const double within = kTouch * (rounding_size(cutter, curve.reach()) + curve.reach());
+    // Of the cutter's own width: the height of a side almost along z is far less exact than its
+    // distance.
+    const double within = kTouch * (curve.reach() - 0.5 * (from->left + from->right));
     const auto along = [&](double Sides::*side) {
       return std::abs((*from).*side) <= within && std::abs((*to).*side) <= within;
     };

@@ -302,6 +302,41 @@ TEST(SectionContour, RowsStandOnSeamsAndProveThemselves) {
   }
 }
 
+/// A side in line with a face, but for the rounding of its direction to 5 to 9 decimals.
+TEST(SectionContour, SidesAlmostAlongTheTubeProveThemselves) {
+  std::mt19937_64 random(41);
+  std::uniform_real_distribution<double> decade(-9.0, -5.0), lean(30.0, 150.0);
+  const Section tube{.height = 80, .width = 80, .wall = 4, .corner = 10, .inner_corner = 6};
+  int answers = 0;
+  for (int k = 0; k < 200; ++k) {
+    const double off = std::pow(10.0, decade(random)) * (k % 2 == 0 ? 1.0 : -1.0);
+    const double inclination = lean(random) * kRadPerDeg, quarter = 0.5 * kPi * (k % 4);
+    RectangularTubeCutter box;
+    box.width = k % 3 == 0 ? 80.0 : 110.0;
+    box.height = 120.0;
+    box.corner = 8.0;
+    box.direction = {std::sin(inclination), 0.0, std::cos(inclination)};
+    box.up = {-std::cos(inclination), off, std::sin(inclination)};
+    box.point = {0.0, 0.5 * (box.width - 80.0), 0.0};
+    const Eigen::AngleAxisd turn(quarter + 0.3 * off, Eigen::Vector3d::UnitZ());
+    box.direction = turn * box.direction;
+    box.up = turn * box.up;
+    box.point = turn * box.point;
+    IntersectionSpec spec;
+    spec.partners.emplace_back(box);
+    spec.sampling.tolerance = Tolerance{.value = 0.05};
+    const auto answer = intersect(tube, spec);
+    if (!answer) {
+      EXPECT_EQ(answer.error().issues.front().code, ErrorCode::open_profile) << k;
+      continue;
+    }
+    ++answers;
+    for (const auto& check : verify(tube, spec, *answer))
+      EXPECT_TRUE(check.passed()) << k << " " << check.name << " " << check.value;
+  }
+  EXPECT_GT(answers, 100);
+}
+
 /// The other proof notices a place, a height or a label that is wrong.
 TEST(SectionContour, ProofSeesWhatIsWrong) {
   std::mt19937_64 random(3);
