@@ -35,7 +35,11 @@ struct Need {
 class Torch {
  public:
   Torch(const SectionSurface& surface, const TableSpec& spec, SectionTable& table)
-      : surface_(surface), spec_(spec), table_(table) {}
+      : surface_(surface), spec_(spec), table_(table), beside_seams_(table.at.size()) {
+    const auto& wall = surface.wall();
+    for (const double s : wall.outer().seams()) add_seam(s);
+    for (const double s : wall.bore().seams()) add_seam(wall.outside_of(wall.bore().at(s)));
+  }
 
   void lay() {
     const auto n = table_.at.size();
@@ -53,6 +57,19 @@ class Torch {
   }
 
  private:
+  /// Notes the places about an end of a flat or a corner that lies between rows: the rows of a bare
+  /// grid do not stand there, and within half a kerf of it the need bends as it does at a row.
+  void add_seam(double s) {
+    const auto row = surface_.row_before(s);
+    const double wide = surface_.width(row), from = s - table_.at[row].s;
+    const double at = from < 0.0 ? from + table_.girth : from;
+    if (!(at > kNarrow && wide - at > kNarrow)) return;
+    for (const double off : {-1.0, -0.5, -0.1, 0.0, 0.1, 0.5, 1.0}) {
+      const double share = (at + off * 0.5 * spec_.kerf) / wide;
+      if (share > 0.0 && share < 1.0) beside_seams_[row].push_back(share);
+    }
+  }
+
   /// Returns true if a beam at this gap reaches a jump, where the need may step.
   [[nodiscard]] bool near_jump(std::size_t row) const {
     bool out = false;
@@ -65,7 +82,8 @@ class Torch {
   /// the need changes most within half a kerf of one.
   [[nodiscard]] std::vector<Need> needs(std::size_t row) const {
     const double wide = surface_.width(row), half = 0.5 * spec_.kerf;
-    std::vector<double> shares{0.0, 1.0};
+    std::vector<double> shares = beside_seams_[row];
+    shares.insert(shares.end(), {0.0, 1.0});
     for (int k = 1; k < kParts && wide > kShortest; ++k)
       shares.push_back(static_cast<double>(k) / kParts);
     const bool steps = near_jump(row);
@@ -152,19 +170,22 @@ class Torch {
     for (int round = 0; round < kSpared; ++round) {
       out = {};
       std::vector<Need> entered;
-      for (std::size_t i = 0; i < table_.at.size() && !stopped(); ++i)
-        for (const double share : kSampledShares) {
-          if (share > 0.0 && !(surface_.width(i) > 0.0)) continue;
-          const auto line = surface_.line(i, share);
-          const Need here{i, share, 0.0};
-          const double depth = entered_at(line, here);
-          if (depth > kEntered)
-            entered.push_back(
-                {i, share, laid(here) + depth * elementary::hypot(1.0, line.slope())});
-          if (!(depth > out.gouge)) continue;
-          out.gouge = depth;
-          out.gouge_s = line.at.s;
-        }
+      const auto look = [&](std::size_t row, double share) {
+        if (share > 0.0 && !(surface_.width(row) > 0.0)) return;
+        const auto line = surface_.line(row, share);
+        const Need here{row, share, 0.0};
+        const double depth = entered_at(line, here);
+        if (depth > kEntered)
+          entered.push_back(
+              {row, share, laid(here) + depth * elementary::hypot(1.0, line.slope())});
+        if (!(depth > out.gouge)) return;
+        out.gouge = depth;
+        out.gouge_s = line.at.s;
+      };
+      for (std::size_t i = 0; i < table_.at.size() && !stopped(); ++i) {
+        for (const double share : kSampledShares) look(i, share);
+        for (const double share : beside_seams_[i]) look(i, share);
+      }
       if (entered.empty() || round + 1 == kSpared) return;
       for (const auto& need : entered) lower(need);
       write();
@@ -175,6 +196,7 @@ class Torch {
   const TableSpec& spec_;
   SectionTable& table_;
   std::vector<double> drop_;
+  std::vector<std::vector<double>> beside_seams_;  // shares, by row
 };
 
 }  // namespace

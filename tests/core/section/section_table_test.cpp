@@ -181,6 +181,31 @@ TEST(SectionTable, RandomEndsProveThemselves) {
   }
 }
 
+/// A bare grid has no rows at the ends of flats, where the need of the beam bends.
+TEST(SectionTable, BareGridsProveThemselves) {
+  const section::Section tube{
+      .height = 100, .width = 100, .wall = 5, .corner = 7.5, .inner_corner = 5};
+  joint::RectangularTubeCutter box;
+  box.width = box.height = 120.0;
+  box.corner = 10.0;
+  box.up = {0, 1, 0};
+  box.direction = {0.966, 0, -0.258};
+  for (const double lean : {118.55, 60.0, 75.0})
+    for (const double kerf : {0.2, 0.3, 1.0, 2.0})
+      for (const std::size_t points : {84U, 88U, 90U, 91U, 95U, 180U}) {
+        auto spec = spec_of({joint::TubeCutter{100, Angle::deg(lean), Angle::deg(180), 0, 0}, box});
+        spec.groove = NoGroove{};
+        spec.kerf = kerf;
+        spec.smoothing = EnvelopeSmoothing{.limits = {2 * kRadPerDeg, 0.5 * kRadPerDeg}};
+        spec.sampling = {.uniform_points = points, .tolerance = std::nullopt};
+        const auto table = section_table(tube, spec);
+        ASSERT_TRUE(table);
+        for (const auto& check : verify(tube, spec, *table))
+          EXPECT_LE(check.value, check.limit)
+              << check.name << " " << lean << " " << kerf << " " << points;
+      }
+}
+
 /// The groove of one face turns into that of the next inside the corner: at the ends of flats, of
 /// the outside and of the bore, neither B nor any angle has a step.
 TEST(SectionTable, AnglesAreContinuousAtSeams) {
