@@ -109,16 +109,6 @@ EventPhases::EventPhases(std::span<const PreparedCutter> cutters, double rho)
   merge();
 }
 
-double EventPhases::noise_of(std::size_t i) const {
-  constexpr double kCurved = 1e-7;  // relative; at a silhouette it is the square root of rounding
-  constexpr double kFlat = 3e-11;   // times the size of a flat, which grows with its slope: of phi
-  if (scanned(i)) return kCurved * size_of(i);
-  double out = 0.0;
-  for (const auto& sheet : sheets_[i])
-    out = std::max(out, (sheet.curved ? kCurved : kFlat) * sheet.size);
-  return out;
-}
-
 bool EventPhases::repeats_an_earlier(std::size_t i) const {
   return std::ranges::any_of(active_,
                              [&](std::size_t j) { return same_curve(sheets_[j], sheets_[i]); });

@@ -38,7 +38,7 @@ class EventPhases {
   /// Returns a length to which the rounding of this active cutter's z is proportional.
   [[nodiscard]] double size_of(std::size_t i) const { return sizes_[i]; }
   /// Returns how far apart two heights of this active cutter at one event may be, mm.
-  [[nodiscard]] double noise_of(std::size_t i) const;
+  [[nodiscard]] double noise_of(std::size_t i) const { return event_noise(sheets_[i], size_of(i)); }
   /// Returns true if its surface has no closed form, so its events are bracketed.
   [[nodiscard]] bool scanned(std::size_t i) const { return sheets_[i].empty(); }
   /// Returns the phase where the highest sheet of a scanned cutter ends at a silhouette of its own

@@ -1,5 +1,7 @@
 #include "core/joint/cutters/cutter.hpp"
 
+#include <algorithm>
+
 #include "core/joint/node/sheets.hpp"
 #include "core/math/rotation.hpp"
 
@@ -44,6 +46,14 @@ Met met(const PreparedCutter& cutter, double rho) {
 }
 double rounding_size(const PreparedCutter& cutter, double rho) {
   return by_kind(cutter, [&](const auto& kind) { return kind.size(rho); });
+}
+double event_noise(std::span<const Sheets> parts, double size) {
+  constexpr double kCurved = 1e-7;  // relative; at a silhouette it is the square root of rounding
+  constexpr double kFlat = 3e-11;   // times the size of a flat, which grows with its slope: of phi
+  if (parts.empty()) return kCurved * size;
+  double out = 0.0;
+  for (const auto& part : parts) out = std::max(out, (part.curved ? kCurved : kFlat) * part.size);
+  return out;
 }
 std::vector<Sheets> sheets(const PreparedCutter& cutter, double rho) {
   return by_kind(cutter, [&](const auto& kind) { return kind.sheets(rho); });

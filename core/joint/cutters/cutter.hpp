@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <type_traits>
 #include <variant>
@@ -107,6 +108,10 @@ template <class Of>
 
 /// Returns a length to which the rounding of its z is proportional.
 [[nodiscard]] double rounding_size(const PreparedCutter& cutter, double rho);
+
+/// Returns how far apart two heights of a cutter at one event may be by rounding, mm, from its
+/// parts and its `rounding_size`.
+[[nodiscard]] double event_noise(std::span<const Sheets> parts, double size);
 
 /// Returns the parts whose highest sheet is the cutter's own; empty when there is no closed form.
 [[nodiscard]] std::vector<Sheets> sheets(const PreparedCutter& cutter, double rho);

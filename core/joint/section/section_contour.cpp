@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -17,8 +18,8 @@ using section::Curve;
 using section::Station;
 
 constexpr double kNearParallel = 0.08715574274765817;  // sin 5 deg: below it dz grows as 1/sin a
-constexpr double kTie = 1e-12;                         // of radius + |z|, rounding of one height
-constexpr double kContinuous = 1e-7;    // relative; noise of z at a silhouette is its square root
+constexpr double kUpright = 1e-7;       // axial part of a normal: the height has half its digits
+constexpr double kTie = 1e-12;          // of radius + |z|, rounding of one height
 constexpr double kSamePlace = 1e-11;    // of the girth / 2 pi: closer places are one
 constexpr double kScanPlaces = 1440.0;  // of a girth
 constexpr double kBeside = 1e-9;        // of the girth
@@ -149,8 +150,10 @@ class Divider {
       return event;
     }
     const double wide = curve_.reach();
-    const double noise = kContinuous * std::max(rounding_size(cutters[from], wide),
-                                                rounding_size(cutters[to], wide));
+    const auto noise_of = [&](std::size_t i) {
+      return event_noise(sheets(cutters[i], wide), rounding_size(cutters[i], wide));
+    };
+    const double noise = std::max(noise_of(from), noise_of(to));
     const bool jumps = std::abs(event.z_to - event.z_from) > noise;
     event.kind = jumps ? SectionEventKind::jump : SectionEventKind::junction;
     const bool from_higher = event.z_from > event.z_to;
@@ -161,7 +164,11 @@ class Divider {
       return event;
     }
     // Next to a silhouette the steeper curve keeps only half the digits of the common height.
-    const auto slope = [&](std::size_t i) { return std::abs(out_.hit(i, at).z_dphi); };
+    const auto slope = [&](std::size_t i) {
+      const auto hit = out_.hit(i, at);
+      const bool upright = std::abs(hit.normal.z()) < kUpright;
+      return upright ? std::numeric_limits<double>::infinity() : std::abs(hit.z_dphi);
+    };
     if (slope(from) > slope(to))
       event.z_from = event.z_to;
     else

@@ -337,6 +337,82 @@ TEST(SectionContour, SidesAlmostAlongTheTubeProveThemselves) {
   EXPECT_GT(answers, 100);
 }
 
+RectangularTubeCutter drawn_box(double side, const Eigen::Vector3d& along,
+                                const Eigen::Vector3d& up, double scale) {
+  const auto rounded = [&](const Eigen::Vector3d& v) {
+    return Eigen::Vector3d((v * scale).array().round() / scale);
+  };
+  RectangularTubeCutter box;
+  box.width = box.height = side;
+  box.corner = 6.0;
+  box.direction = rounded(along);
+  box.up = rounded(up);
+  return box;
+}
+
+IntersectionSpec asked(const std::vector<Cutter>& cutters) {
+  IntersectionSpec out;
+  for (const auto& cutter : cutters)
+    by_kind(cutter, [&](const auto& kind) { out.partners.emplace_back(kind); });
+  out.sampling.tolerance = Tolerance{.value = 0.05};
+  return out;
+}
+
+void expect_passed(const std::vector<Check>& checks, int k) {
+  for (const auto& check : checks) EXPECT_LE(check.value, check.limit) << check.name << " of " << k;
+}
+
+/// Two diagonals of a node, as wide as the tube, with directions of 3 to 7 decimals.
+TEST(SectionContour, TwoRoundedPartnersProveThemselves) {
+  std::mt19937_64 random(43);
+  const auto any = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int made = 0;
+  for (int k = 0; k < 400; ++k) {
+    const Section tube{.height = k % 2 == 0 ? 60.0 : 40.0,
+                       .width = 40.0,
+                       .wall = 3,
+                       .corner = 6,
+                       .inner_corner = 3};
+    const double scale = std::pow(10.0, 3 + k % 5), plan = k % 3 == 0 ? any(0, 6.28) : 0.0;
+    std::vector<Cutter> cutters;
+    for (const int side : {1, -1}) {
+      const double lean = (k % 7 == 0 ? 75.0 : 60.0) * kRadPerDeg * side;
+      const Eigen::AngleAxisd turn(plan + (side > 0 ? 0.0 : 60.0 * kRadPerDeg * (k % 4)),
+                                   Eigen::Vector3d::UnitZ());
+      cutters.emplace_back(
+          drawn_box(40.0, turn * Eigen::Vector3d(std::sin(lean), 0, std::cos(lean)),
+                    turn * Eigen::Vector3d(-std::cos(lean), 0, std::sin(lean)), scale));
+    }
+    const auto spec = asked(cutters);
+    const auto answer = intersect(tube, spec);
+    if (answer) expect_passed(verify(tube, spec, *answer), k);
+    made += answer ? 1 : 0;
+  }
+  EXPECT_GT(made, 200);
+}
+
+/// A round post on two rails that touch, or overlap: their tops are one plane.
+TEST(SectionContour, RailsSideBySideProveThemselves) {
+  int k = 0;
+  for (const double diameter : {42.4, 48.3, 60.3, 76.1})
+    for (const double beside : {25.0, 20.0, 5.0, 1.0}) {
+      if (beside + 25.0 < 0.5 * diameter + 1.0) continue;  // open
+      std::vector<Cutter> rails;
+      for (const double y : {beside, -beside}) {
+        auto rail = drawn_box(50.0, {1, 0, 0}, {0, 0, 1}, 1.0);
+        rail.point = {0, y, 0};
+        rails.emplace_back(rail);
+      }
+      auto spec = asked(rails);
+      spec.target = {.outer_radius = 0.5 * diameter, .wall = 3.0};
+      const auto answer = intersect(spec);
+      ASSERT_TRUE(answer);
+      expect_passed(verify(spec, *answer), k++);
+    }
+}
+
 /// The other proof notices a place, a height or a label that is wrong.
 TEST(SectionContour, ProofSeesWhatIsWrong) {
   std::mt19937_64 random(3);
