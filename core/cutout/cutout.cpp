@@ -142,7 +142,10 @@ Result<std::vector<std::size_t>> moulds_of(const Spec& spec, const Ground& groun
   std::vector<std::size_t> out;
   for (const bool far : {false, true}) {
     if (far && spec.wall != Wall::through) continue;
-    TRY(const auto found, mould_of(spec, chain, laying_of(spec, ground, over, far), ground, all));
+    const auto laying = laying_of(spec, ground, over, far);
+    if (auto issues = check_straight_tool(laying); !issues.empty())
+      return tl::unexpected(Error{std::move(issues)});
+    TRY(const auto found, mould_of(spec, chain, laying, ground, all));
     out.push_back(found);
     if (far || !spec.countersink) continue;
     TRY(const auto cone, cone_mould_of(cone_of(spec), near, ground, all));

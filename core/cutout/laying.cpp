@@ -97,6 +97,19 @@ Taken taken_over(const SectionLay& lay, const Chain& chain) {
 
 }  // namespace
 
+Laying Laying::straight() const {
+  auto out = *this;
+  out.lay_ = Lay::prism;
+  if (over_)
+    out.over_ =
+        std::make_shared<const SectionLay>(over_->wall(), over_->s_of_spec(), Lay::prism, far_);
+  return out;
+}
+
+double Laying::outside(double b) const {
+  return over_ ? over_->sense() * over_->at(b).s : outer_ * turn(b, outer_);
+}
+
 double Laying::turn(double b, double rho) const {
   if (over_) return over_->way(b, rho != inner_) / rho;
   if (lay_ == Lay::developed) return b / outer_;

@@ -49,6 +49,11 @@ class Laying {
   /// plane.
   [[nodiscard]] bool parallel() const { return lay_ == Lay::prism || lay_ == Lay::flat; }
 
+  /// The same place with walls along the anchor's normal: the way of a straight tool.
+  [[nodiscard]] Laying straight() const;
+  /// Way round on the outside from a fixed place there, mm, towards +b.
+  [[nodiscard]] double outside(double b) const;
+
   /// Way round from the anchor's generator, rad, before the side counts: of b, on the radius rho,
   /// which over corners is that of the outside or of the bore.
   [[nodiscard]] double turn(double b, double rho) const;

@@ -24,21 +24,21 @@ double swept_to(const section::Curve& curve, double s) {
   const double girth = curve.girth(), turns = std::floor(s / girth);
   double whole = 0.0, part = 0.0;
   for (const auto& segment : curve.segments()) {
-    const auto over = [&](double from, double to) {
+    const auto over = [&](double begin, double from, double to) {
       if (!(to > from)) return 0.0;
       if (!segment.is_arc()) return 0.5 * segment.normal.dot(segment.origin) * (to - from);
       const auto tangent = [&](double at) {
-        const auto turn = elementary::sincos(segment.nu + (at - segment.from) / segment.radius);
+        const auto turn = elementary::sincos(segment.nu + (at - begin) / segment.radius);
         return Vector2d(-turn.sin, turn.cos);
       };
       return 0.5 * (segment.radius * (to - from) -
                     segment.radius * segment.origin.dot(tangent(to) - tangent(from)));
     };
-    whole += over(segment.from, segment.to());
-    // The first segment may begin before the datum.
-    const double end = s - turns * girth;
-    part += over(std::max(0.0, segment.from), std::min(segment.to(), end));
-    part += over(segment.from + girth, std::min(girth, end));
+    whole += over(segment.from, segment.from, segment.to());
+    // The first segment may begin before the datum, and ends the turn too.
+    const double end = s - turns * girth, last = segment.from + girth;
+    part += over(segment.from, std::max(0.0, segment.from), std::min(segment.to(), end));
+    part += over(last, last, std::min(girth, end));
   }
   return turns * whole + part;
 }

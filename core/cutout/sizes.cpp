@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "core/base/elementary.hpp"
 #include "core/base/rounding.hpp"
+#include "core/cutout/flats.hpp"
+#include "core/cutout/pattern.hpp"
 #include "core/cutout/rows.hpp"
+#include "core/math/mixed.hpp"
 
 namespace tubecut::cutout {
 namespace {
@@ -219,6 +224,44 @@ std::vector<Issue> check_open(const Chain& chain, const Laying& laying) {
            .unit = "mm",
            .hint = "across it reaches beyond the bore; lay it on the wall by wall developed, or "
                    "make it less wide"}};
+}
+
+std::vector<Issue> check_straight_tool(const Laying& laying) {
+  constexpr double kRoom = 0.01;  // mm
+  if (laying.lay() != Lay::bored) return {};
+  const double lacks = std::abs(laying.straight().outside(0.0) - laying.outside(0.0));
+  if (lacks <= kRoom) return {};
+  return {{.code = ErrorCode::unsupported_combination,
+           .member = "wall",
+           .got = lacks,
+           .limit = kRoom,
+           .unit = "mm",
+           .hint = "the far wall leans against the anchor's normal there: cut square to it, its "
+                   "outside lies aside of its bore and blocks a straight tool; give the far wall a "
+                   "cut-out of its own, or cut both with a torch that leans (tilt free)"}};
+}
+
+double least_corner(const Spec& spec, const Chain& chain, const section::Wall& wall, double kerf) {
+  constexpr int kPlaces = 64;
+  constexpr double kRound = 1e-3;  // mm: between two places it may be a little more
+  const auto box = bounds(chain);
+  double out = 0.5 * kerf;
+  std::set<double> seen;
+  for (const auto& step : steps(spec.pattern).value_or(std::vector<Step>{Step{}})) {
+    const auto over = over_corner(wall, spec, step, chain);
+    if (!over || !seen.insert(*over).second) continue;
+    for (const bool far : {false, true}) {
+      if (far && spec.wall != Wall::through) continue;
+      const Laying laying(wall, *over, lay_of(spec.wall, spec.tilt), far);
+      if (!check_open(chain, laying).empty()) continue;
+      for (int i = 0; i <= kPlaces; ++i) {
+        const double b = math::mixed(box.least.y(), box.most.y(), static_cast<double>(i) / kPlaces);
+        const double least = least_radius(laying, kerf, b);
+        if (least > 0.5 * kerf) out = std::max(out, kRound * std::ceil(least / kRound));
+      }
+    }
+  }
+  return out;
 }
 
 Flat deep_in(const Spec& spec, const Chain& chain) { return std::visit(Middle{chain}, spec.shape); }

@@ -163,6 +163,28 @@ TEST(SectionPartCutouts, EveryProblemIsAtItsField) {
   expect_refused(kParts, round, "/cutouts/0/pattern/kind", "unsupported_combination");
 }
 
+/// The default radius is the least that the kerf allows where the rectangle lies: half the kerf on
+/// a flat, more over a corner, and a little less is refused.
+TEST(SectionPartCutouts, ARectanglesDefaultRadiusIsTheLeastOfItsPlace) {
+  for (const char* wall : {"normal", "developed"})
+    for (const double girth : {0.0, 20.0, 22.0, 24.0}) {
+      auto window = parsed(R"({"id": "w", "shape": {"kind": "rectangle", "along_mm": 20,
+                              "round_mm": 12}, "at": {"z_mm": 300}})");
+      window = with(with(window, "at/girth_mm", girth), "wall", wall);
+      const auto asked = with(rail(), "cutouts", api::Json{api::Json::Array{window}});
+      const auto answer = post(kParts, asked);
+      ASSERT_FALSE(answer.outcome.error) << wall << girth << answer.outcome.body.substr(0, 600);
+      const double radius = number(answer.body, "request/cutouts/0/shape/corner_radius_mm");
+      if (girth == 0.0) {
+        EXPECT_EQ(radius, 0.5 * number(answer.body, "request/kerf_mm"));
+      } else {
+        EXPECT_GT(radius, 0.5 * number(answer.body, "request/kerf_mm"));
+      }
+      const auto tighter = with(asked, "cutouts/0/shape/corner_radius_mm", radius - 0.005);
+      EXPECT_TRUE(post(kParts, tighter).outcome.error) << wall << girth;
+    }
+}
+
 TEST(SectionPartCutouts, AllOfThemAreInEveryFile) {
   auto body = with_cutout(
       R"({"id": "bolt", "shape": {"kind": "circle", "diameter_mm": 11},

@@ -16,6 +16,7 @@
 #include "api/wire/cutout_names.hpp"
 #include "api/wire/problem.hpp"
 #include "core/cutout/rows.hpp"
+#include "core/cutout/sizes.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -57,21 +58,22 @@ bool decode_as_cut(Reader& in) {
 }
 
 /// The least corner that the kerf allows, or 0 with corners as_cut or if a side is refused.
-double default_radius(const Common& common, const cutout::Spec& spec, const cutout::Rectangle& r,
-                      cutout::Lay lay) {
+double default_radius(const Common& common, const cutout::Spec& spec, const cutout::Rectangle& r) {
   const auto& tube = common.once.target;
   const bool sides = r.along > 0.0 && r.round > 0.0;
-  if (common.section != nullptr && !spec.as_cut && sides)
-    return std::min(0.5 * common.once.kerf, 0.5 * std::min(r.along, r.round));
-  if (spec.as_cut || !sides || !(tube.inner_radius() > 0.0)) return 0.0;
-  const cutout::Laying laying(tube, lay, false);
-  const auto box = bounds(turned(cutout::rectangle(r.along, r.round, 0.0), spec.turn));
-  const double b = std::min(box.most.y(), 0.999 * tube.inner_radius());
-  const double least = cutout::least_radius(laying, common.once.kerf, b);
-  return std::min(least, 0.5 * std::min(r.along, r.round));
+  if (spec.as_cut || !sides) return 0.0;
+  const auto chain = turned(cutout::rectangle(r.along, r.round, 0.0), spec.turn);
+  const double most = 0.5 * std::min(r.along, r.round), kerf = common.once.kerf;
+  if (common.section != nullptr)
+    return std::min(cutout::least_corner(spec, chain, section::Wall(*common.section), kerf), most);
+  if (!(tube.inner_radius() > 0.0)) return 0.0;
+  const cutout::Laying laying(tube, cutout::lay_of(spec.wall, spec.tilt), false);
+  const double b = std::min(bounds(chain).most.y(), 0.999 * tube.inner_radius());
+  return std::min(cutout::least_radius(laying, kerf, b), most);
 }
 
-void decode_shape(Reader& in, const Common& common, cutout::Lay lay, cutout::Spec& out) {
+/// Decodes `shape`, once the wall, the place and the pattern are known.
+void decode_shape(Reader& in, const Common& common, cutout::Spec& out) {
   enum class Kind { circle, slot, rectangle, contour, dxf, slit };
   static constexpr std::array kKinds{Option<Kind>{"circle", Kind::circle},
                                      Option<Kind>{"slot", Kind::slot},
@@ -95,8 +97,7 @@ void decode_shape(Reader& in, const Common& common, cutout::Lay lay, cutout::Spe
       out.as_cut = decode_as_cut(in);
       cutout::Rectangle shape{.along = in.number("along_mm", kSize)};
       shape.round = in.number("round_mm", kSize);
-      shape.radius =
-          in.number("corner_radius_mm", kCorner, default_radius(common, out, shape, lay));
+      shape.radius = in.number("corner_radius_mm", kCorner, default_radius(common, out, shape));
       out.shape = shape;
       return;
     }
@@ -290,16 +291,15 @@ cutout::Spec decode_cutout(Reader& in, const Common& common, std::set<std::strin
   cutout::Spec out{.id = decode_own_id(in, ids, "another cut-out has it")};
   out.wall = in.choice("wall", cutout::Wall::normal);
   out.tilt = decode_cutout_tilt(in, common.preset);
-  const auto lay = cutout::lay_of(out.wall, out.tilt);
-  in.object("shape", [&](Reader& s) {
-    decode_shape(s, common, lay, out);
-    return 0;
-  });
-  decode_countersink(in, common.preset, out);
   out.at = in.object("at", [&](Reader& a) { return decode_anchor(a, common.tube()); });
   in.note("pattern");
   if (in.has("pattern"))
     out.pattern = in.object("pattern", [&](Reader& p) { return decode_pattern(p, common); });
+  in.object("shape", [&](Reader& s) {
+    decode_shape(s, common, out);
+    return 0;
+  });
+  decode_countersink(in, common.preset, out);
   return out;
 }
 

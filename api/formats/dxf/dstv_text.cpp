@@ -88,7 +88,7 @@ std::string wall_words(cutout::Lay lay) {
     case cutout::Lay::prism:
       return "its walls parallel";
     case cutout::Lay::bored:
-      return "square to the tube, a straight tool passes";
+      return "square to the tube, its size on the bore";
     case cutout::Lay::flat:
       return "square to the face";
   }

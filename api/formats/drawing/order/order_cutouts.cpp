@@ -40,7 +40,7 @@ std::string in_words(cutout::Lay lay) {
     case cutout::Lay::prism:
       return "straight through";
     case cutout::Lay::bored:
-      return "a straight tool passes";
+      return "size on the bore";
     case cutout::Lay::flat:
       return "square to the face";
   }

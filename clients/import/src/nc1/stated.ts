@@ -188,7 +188,7 @@ export interface Title {
 /** Name of the cut-out of a block, and whether it is the far side of one through both walls. */
 export function titleOf(comments: string[]): Title | undefined {
   const found = comments
-    .map((each) => /^cut-out (.*), (?:square to the (?:tube|face)|its walls parallel)(?:, a straight tool passes)?$/.exec(each))
+    .map((each) => /^cut-out (.*), (?:square to the (?:tube|face)|its walls parallel)(?:, (?:a straight tool passes|its size on the bore))?$/.exec(each))
     .find(Boolean);
   if (!found) return undefined;
   const name = found[1] as string;
