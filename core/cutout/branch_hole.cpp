@@ -11,6 +11,7 @@
 #include "core/base/try.hpp"
 #include "core/cutout/flats.hpp"
 #include "core/cutout/hull.hpp"
+#include "core/cutout/shadow/shadow.hpp"
 
 namespace tubecut::cutout {
 namespace {
@@ -22,6 +23,7 @@ using Eigen::Vector3d;
 constexpr double kRounded = 1e-9;  // mm, and of a direction's rounding
 constexpr double kLeans = 0.01;    // mm, of a branch over the width of a round tube: rounding
 constexpr int kPlaces = 512;       // of an arc: of its greatest distance, 1e-5 mm is lost
+constexpr int kShares = 64;        // of a piece of a shadow's contour, for the same
 
 /// The outline that the hole follows, in the branch's own plane: x along its height.
 section::Curve outline(const Branch& branch, double gap) {
@@ -105,18 +107,17 @@ Result<Exit> exit_of(const section::Wall& wall, const joint::AxisLine& axis) {
   return exit;
 }
 
-/// The side on which the axis leaves a round tube, which it must meet at a right angle.
+/// Returns true if a branch does not meet a round tube at a right angle.
+bool leans_on_round(const joint::Target& tube, const Vector3d& axis) {
+  const double flat = elementary::hypot(axis.x(), axis.y());
+  return flat > kRounded && std::abs(axis.z()) / flat * 2.0 * tube.outer_radius > kLeans;
+}
+
+/// The side on which the axis leaves a round tube that it meets at a right angle.
 Result<Exit> exit_of(const joint::Target& tube, const joint::AxisLine& axis, Angle zero) {
   const Vector3d d = axis.direction.normalized();
   const double flat = elementary::hypot(d.x(), d.y());
   if (!(flat > kRounded)) return along_tube();
-  if (!(std::abs(d.z()) / flat * 2.0 * tube.outer_radius <= kLeans))
-    return fail({.code = ErrorCode::unsupported_combination,
-                 .member = "axis",
-                 .got = elementary::atan2(flat, d.z()) * kDegPerRad,
-                 .limit = 90.0,
-                 .unit = "deg",
-                 .hint = "a branch that is not round passes a round tube at a right angle only"});
   Exit exit{.at = {}, .place = {}, .normal = {d.x() / flat, d.y() / flat, 0.0}, .round = {}};
   exit.round = Vector3d(-exit.normal.y(), exit.normal.x(), 0.0);
   // On the level of the tube's own axis plane, where the branch crosses it.
@@ -202,26 +203,30 @@ double greatest_gap(const Branch& branch, const Laid& laid, const std::vector<Hu
   return out;
 }
 
-/// The same of a hole that goes straight over corners, its wall square to the outside from the
-/// bore on.
-double gap_over_corner(const Branch& branch, const Laid& laid, const std::vector<HullPart>& hull,
-                       const Exit& exit, const section::Wall& wall) {
+/// How far the wall of a hole that goes straight over corners, square to the outside from the bore
+/// on, is from the branch with its gap: the least and the greatest distance.
+std::pair<double, double> gaps_over_corner(const Branch& branch, const Laid& laid,
+                                           const std::vector<HullPart>& hull, const Exit& exit,
+                                           const section::Wall& wall) {
+  constexpr int kDepths = 8;
   const auto curve = outline(branch, 0.0);
   const SectionLay over(wall, wall.outer().on_face(exit.at.face, exit.at.offset), Lay::bored,
                         false);
   const Vector2d round = exit.round.head<2>();
-  double out = branch.gap;
+  double least = branch.gap, most = branch.gap;
   for (const auto& p : places(hull)) {
     const Vector2d flat = laid.onto() * p;
     const auto outside = over.at(flat.y()).outer.point;
     const double b = outside.dot(round) - exit.at.offset;
-    out = std::max(
-        {out, way_to(curve, p), way_to(curve, laid.onto().inverse() * Vector2d(flat.x(), b))});
+    const Vector2d end = laid.onto().inverse() * Vector2d(flat.x(), b);
+    most = std::max({most, way_to(curve, p), way_to(curve, end)});
+    for (int k = 1; k <= kDepths; ++k)
+      least = std::min(least, way_to(curve, p + k / double{kDepths} * (end - p)));
   }
-  return out;
+  return {least, most};
 }
 
-/// Returns true if the hole leaves the flat of its face, which only one at a right angle may.
+/// Returns true if the hole leaves the flat of its face.
 bool leaves_flat(const Laid& laid, const std::vector<HullPart>& hull, const Exit& exit,
                  const section::Wall& wall) {
   const double half = half_flat(wall, exit.at.face);
@@ -230,9 +235,51 @@ bool leaves_flat(const Laid& laid, const std::vector<HullPart>& hull, const Exit
   });
 }
 
+Anchor anchor_of(const Shadow& shadow, const joint::Target& tube, const section::Wall* wall,
+                 Angle zero) {
+  if (wall == nullptr) return {.z = shadow.z, .phi = shadow.s / tube.outer_radius - zero.rad()};
+  const auto& outer = wall->outer();
+  const auto [face, offset] = face_place(outer, {.phi = shadow.s / outer.girth() * kTwoPi});
+  return {.z = shadow.z, .face = face, .offset = std::abs(offset) > kRounded ? offset : 0.0};
+}
+
+/// The hole as what a wall square to the outside meets of the branch, wherever it leaves the tube.
+Result<BranchHole> shadow_hole(const Branch& branch, const joint::Target& tube,
+                               const section::Wall* wall, Angle zero, std::string id) {
+  const auto axes = axes_of(branch);
+  const bool bore = branch.kind == joint::JointKind::set_on;
+  const SquareLines lines = wall != nullptr ? SquareLines(*wall) : SquareLines(tube);
+  const Vector2d along(axes.x.z(), axes.y.z());
+  TRY(auto shadow, shadow_of({.outline = parts_of(outline(branch, branch.gap + kArcOff), along),
+                              .x = axes.x,
+                              .y = axes.y,
+                              .point = branch.axis.point,
+                              .axis = axes.d,
+                              .outside_only = bore},
+                             lines));
+  BranchHole out{.spec = {.id = std::move(id),
+                          .shape = std::move(shadow.contour),
+                          .as_cut = bore,
+                          .at = anchor_of(shadow, tube, wall, zero),
+                          .wall = Wall::developed,
+                          .tilt = branch.tilt}};
+  if (bore) return out;
+  TRY(const auto chain, chain_of(out.spec));
+  out.greatest_gap = branch.gap;
+  for (const auto& s : chain)
+    for (int k = 0; k < kShares; ++k) {
+      const Flat p = s.at(static_cast<double>(k) / kShares);
+      const auto line = lines.at(shadow.s + p.y());
+      for (const auto& q : {line.outer, line.bore})
+        out.greatest_gap =
+            std::max(out.greatest_gap, distance_from(branch, {q.x(), q.y(), shadow.z + p.x()}));
+    }
+  return out;
+}
+
 /// The hole at one exit.
-BranchHole hole_at(const Branch& branch, const Exit& exit, const section::Wall* wall,
-                   std::string id) {
+Result<BranchHole> hole_at(const Branch& branch, const Exit& exit, const section::Wall* wall,
+                           std::string id) {
   const Laid laid(branch, exit);
   BranchHole out{.spec = {.id = std::move(id),
                           .shape = Circle{},
@@ -248,10 +295,14 @@ BranchHole hole_at(const Branch& branch, const Exit& exit, const section::Wall* 
   const auto curve = outline(branch, gap);
   const auto hull = swept(curve, laid.way());
   if (!bore) out.greatest_gap = greatest_gap(branch, laid, hull);
-  // Of a set-on branch the edge outside is asked for, from which no wall of a cut-out begins.
-  if (!bore && straight && wall != nullptr && leaves_flat(laid, hull, exit, *wall)) {
+  if (wall != nullptr && leaves_flat(laid, hull, exit, *wall)) {
+    if (bore || !straight || std::abs(exit.at.offset) > wall->outer().half_flat(exit.at.face))
+      return shadow_hole(branch, {}, wall, {}, std::move(out.spec.id));
+    const auto [least, most] = gaps_over_corner(branch, laid, hull, exit, *wall);
+    if (least < branch.gap - kRounded)
+      return shadow_hole(branch, {}, wall, {}, std::move(out.spec.id));
     out.spec.on_one_flat = false;
-    out.greatest_gap = gap_over_corner(branch, laid, hull, exit, *wall);
+    out.greatest_gap = most;
   }
   if (straight && exit.shift.isZero(kRounded)) {
     const Vector2d x = laid.onto().col(0);
@@ -278,9 +329,16 @@ Result<std::vector<BranchHole>> holes_for(const Branch& branch, const std::strin
     if (far && branch.kind != joint::JointKind::through) continue;
     auto one = branch;
     if (far) one.axis.direction = -one.axis.direction;
+    const auto name = far ? id + ".far" : id;
+    if (wall == nullptr && leans_on_round(tube, one.axis.direction)) {
+      TRY(auto hole, shadow_hole(one, tube, nullptr, zero, name));
+      out.push_back(std::move(hole));
+      continue;
+    }
     TRY(const auto exit,
         wall != nullptr ? exit_of(*wall, one.axis) : exit_of(tube, one.axis, zero));
-    out.push_back(hole_at(one, exit, wall, far ? id + ".far" : id));
+    TRY(auto hole, hole_at(one, exit, wall, name));
+    out.push_back(std::move(hole));
   }
   return out;
 }

@@ -34,20 +34,19 @@ struct BranchHole {
 };
 
 /// Returns the cut-outs that a branch requires: one where it leaves the tube, and of one that
-/// passes through also one on the other side ("id.far"). Set-in and through at a right angle to its
-/// face, it may go over corners. Set-on: the branch's bore; else its
-/// outside, grown by the gap. The outline is the hull of the branch's outlines on the outside and
-/// on the bore.
+/// passes through also one on the other side ("id.far"). Set-on: the branch's bore; else its
+/// outside, grown by the gap. On a flat, and at a right angle in a round tube, the outline is the
+/// hull of the branch's outlines on the outside and on the bore; over corners, and if the branch
+/// leans in a round tube, it is what a wall square to the outside meets of the branch.
 ///
 /// `wall` is of a tube that is not round, else nullptr; `zero`: the part's phi = 0 in the start's
 /// frame.
 ///
 /// Errors    at the branch: parallel_axes (it runs along the tube), open_profile (its axis
-///           misses the tube), unsupported_combination (it leans on a round tube: its hole there is
-///           no straight prism).
+///           misses the tube, or it reaches the tube's side).
 /// Accuracy  the wall is nowhere nearer to the branch than the gap; straight sides and those of
 ///           branches at right angles are exact, the others are within 2e-4 mm.
-/// Source    docs/theory/cutouts.md, section 6.
+/// Source    docs/theory/cutouts.md, sections 6 and 12.
 [[nodiscard]] Result<std::vector<BranchHole>> holes_for(const Branch& branch, const std::string& id,
                                                         const joint::Target& tube,
                                                         const section::Wall* wall, Angle zero);

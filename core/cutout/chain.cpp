@@ -226,7 +226,11 @@ Bounds bounds(const Chain& chain) {
 
 double distance(const Chain& chain, const Flat& p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& s : chain) least = std::min(least, way_to(s, p));
+  for (const auto& s : chain) {
+    // No place of an arc is nearer than its circle.
+    if (s.arc() && std::abs((p - s.centre).norm() - s.radius) > least + kClosed) continue;
+    least = std::min(least, way_to(s, p));
+  }
   return least;
 }
 
@@ -245,6 +249,8 @@ std::vector<std::pair<double, double>> stretches(const Chain& chain, double at) 
                       (at - s.from.x()) / (s.to.x() - s.from.x()) * (s.to.y() - s.from.y()));
       continue;
     }
+    // Each place of an arc is as near to its ends as the arc is long.
+    if (std::abs(at - s.from.x()) > s.length() + kClosed) continue;
     const double off = at - s.centre.x(), square = s.radius * s.radius - off * off;
     if (!(square > 0.0)) continue;
     const double half = std::sqrt(square);

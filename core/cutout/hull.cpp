@@ -6,6 +6,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/elementary.hpp"
+#include "core/cutout/biarc.hpp"
 #include "core/math/rotation.hpp"
 
 namespace tubecut::cutout {
@@ -35,66 +36,46 @@ class Drawing {
   [[nodiscard]] Flat at(const Vector2d& p) const { return onto_ * p + shift_; }
 
   void add(const HullPart& part) {
-    if (part.radius == 0.0)
+    if (part.radius == 0.0) {
       out_.push_back({.to = at(part.to)});
-    else if (rigid_)
+    } else if (rigid_) {
       out_.push_back({.to = at(part.to), .centre = at(part.centre)});
-    else
-      for (int k = 0; k < 4; ++k)
-        halve(arc_part(part.centre, part.radius, part.angle + 0.25 * k * part.sweep,
-                       0.25 * part.sweep),
-              kHalvings);
+    } else {
+      for (int k = 0; k < 4; ++k) {
+        const Ellipse quarter{*this,
+                              arc_part(part.centre, part.radius, part.angle + 0.25 * k * part.sweep,
+                                       0.25 * part.sweep)};
+        add_biarcs(quarter, quarter.at(0.0), kArcOff, kHalvings, out_);
+      }
+    }
   }
 
   [[nodiscard]] std::vector<DrawnSegment> take() { return std::move(out_); }
 
  private:
-  [[nodiscard]] Vector2d tangent(const HullPart& part, double share) const {
-    const auto [sin, cos] = elementary::sincos(part.angle + share * part.sweep);
-    return (onto_ * Vector2d(-sin, cos)).normalized();
-  }
+  /// An arc as the local plane sees it.
+  struct Ellipse {
+    const Drawing& drawing;
+    HullPart part;
 
-  struct Bow {
-    Flat to, centre;
+    [[nodiscard]] Flat at(double share) const { return drawing.at(part.at(share)); }
+    [[nodiscard]] Flat along(double share) const {
+      const auto [sin, cos] = elementary::sincos(part.angle + share * part.sweep);
+      return (drawing.onto_ * Vector2d(-sin, cos)).normalized();
+    }
+    [[nodiscard]] Ellipse first() const { return half(0.0); }
+    [[nodiscard]] Ellipse second() const { return half(0.5 * part.sweep); }
+    [[nodiscard]] Ellipse half(double turn) const {
+      return {drawing, arc_part(part.centre, part.radius, part.angle + turn, 0.5 * part.sweep)};
+    }
   };
-  /// The arc from `from` in the direction of `along`, to `to`.
-  static Bow bow(const Flat& from, const Vector2d& along, const Flat& to) {
-    const Vector2d left(-along.y(), along.x()), way = to - from;
-    return {to, from + left * (way.squaredNorm() / (2.0 * left.dot(way)))};
-  }
-
-  /// An ellipse's arc as two circular ones with its ends and tangents, halved until they follow it.
-  void halve(const HullPart& part, int left) {
-    const Flat from = at(part.at(0.0)), to = at(part.at(1.0));
-    const Vector2d a = tangent(part, 0.0), b = tangent(part, 1.0), way = to - from, sum = a + b;
-    const double bent = 2.0 * (1.0 - a.dot(b));
-    const double along = way.dot(sum);
-    const double reach =
-        way.squaredNorm() / (along + std::sqrt(along * along + bent * way.squaredNorm()));
-    const Flat middle = 0.5 * ((from + reach * a) + (to - reach * b));
-    const auto first = bow(from, a, middle);
-    const auto second = bow(to, -b, middle);
-    double off = 0.0;
-    for (const double share : {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875}) {
-      const Flat p = at(part.at(share));
-      const auto& one = (p - middle).dot(way) < 0.0 ? first : second;
-      off = std::max(off, std::abs((p - one.centre).norm() - (middle - one.centre).norm()));
-    }
-    if (off > kArcOff && left > 0) {
-      halve(arc_part(part.centre, part.radius, part.angle, 0.5 * part.sweep), left - 1);
-      halve(arc_part(part.centre, part.radius, part.angle + 0.5 * part.sweep, 0.5 * part.sweep),
-            left - 1);
-      return;
-    }
-    out_.push_back({.to = middle, .centre = first.centre});
-    out_.push_back({.to = to, .centre = second.centre});
-  }
 
   Matrix2d onto_;
   Vector2d shift_;
   bool rigid_;
   std::vector<DrawnSegment> out_;
 };
+
 }  // namespace
 
 Vector2d HullPart::at(double share) const {

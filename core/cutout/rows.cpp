@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "core/base/elementary.hpp"
-#include "core/base/stop.hpp"
 #include "core/base/try.hpp"
+#include "core/cutout/axis_line.hpp"
 #include "core/cutout/cone.hpp"
 #include "core/cutout/cutout.hpp"
-#include "core/math/polygon.hpp"
 
 namespace tubecut::cutout {
 namespace {
@@ -22,17 +21,12 @@ constexpr double kBulge = 0.004;  // mm, of a chord of the torch's line into the
 constexpr double kFarTurn = 1e3;  // mm: more than any tolerance
 constexpr int kDeepest = 12;      // halvings of a segment
 constexpr double kEighth = 0.25 * kPi;
-constexpr double kSame = 1e-7;         // mm, between two places of the axis
-constexpr double kLineCrossed = 1e-9;  // of the area within the torch's line
-
-/// One place of the edge and the torch's axis for it, in the plane of the offset.
-struct Row {
-  Flat edge, torch;
-};
+constexpr double kSame = 1e-7;    // mm, between two places of the axis
+constexpr double kOnSeam = 1e-6;  // mm
 
 /// The rows of a segment.
 struct Run {
-  std::vector<Row> rows;
+  std::vector<AxisRow> rows;
   Flat first_normal, last_normal;
   Flat first_along, last_along;
   bool lost = false;  // the beam does not reach into it
@@ -46,7 +40,7 @@ class Maker {
         chain_(laying.over() != nullptr ? divided(chain, laying.over()->breaks()) : chain),
         cutting_(cutting) {}
 
-  Result<std::vector<Row>> make();
+  Result<std::vector<AxisRow>> make();
 
  private:
   [[nodiscard]] Flat plane(const Flat& p) const {
@@ -87,6 +81,7 @@ class Maker {
              std::vector<double>& out) const;
   [[nodiscard]] std::vector<double> shares(const Segment& s) const;
   [[nodiscard]] Run run(const Segment& s) const;
+  [[nodiscard]] bool bends_at_seam(const Run& before, const Run& after) const;
   Result<void> join(Run& before, Run& after) const;
   void round_corner(Run& before, const Run& after) const;
 
@@ -181,25 +176,6 @@ Run Maker::run(const Segment& s) const {
   return out;
 }
 
-/// Where the tail of one line first crosses the head of another, by the index of the last place
-/// kept of the one and the first of the other.
-struct Crossing {
-  std::size_t last, first;
-  Flat at;
-};
-std::optional<Crossing> crossing(const std::vector<Row>& one, const std::vector<Row>& other) {
-  for (std::size_t i = one.size(); i-- > 1;)
-    for (std::size_t j = 0; j + 1 < other.size(); ++j) {
-      const Flat a = one[i - 1].torch, b = one[i].torch - a;
-      const Flat c = other[j].torch, d = other[j + 1].torch - c;
-      const double of = cross(b, d);
-      if (of == 0.0) continue;
-      const double u = cross(c - a, d) / of, v = cross(c - a, b) / of;
-      if (u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0) return Crossing{i - 1, j + 1, a + u * b};
-    }
-  return {};
-}
-
 /// The axis goes round a corner of the part that reaches into the scrap.
 void Maker::round_corner(Run& before, const Run& after) const {
   const auto &from = before.last_normal, &to = after.first_normal;
@@ -215,6 +191,19 @@ void Maker::round_corner(Run& before, const Run& after) const {
   }
 }
 
+/// Returns true if an edge bends only because it crosses a seam: on the bore, or on the outside by
+/// so little that the beam leaves no more than the tolerance.
+bool Maker::bends_at_seam(const Run& before, const Run& after) const {
+  if (laying_.over() == nullptr || laying_.parallel()) return false;
+  if (std::abs(cross(before.last_along, after.first_along)) < kSmooth) return true;
+  const double b = after.rows.front().edge.y();
+  const auto on_seam = [&](double seam) { return std::abs(b - seam) < kOnSeam; };
+  const double turn = std::min(1.0, before.last_normal.dot(after.first_normal));
+  const double left = 0.5 * cutting_.kerf * (std::sqrt(2.0 / (1.0 + turn)) - 1.0);
+  return turn > 0.0 && left <= cutting_.tolerance &&
+         std::ranges::any_of(laying_.over()->breaks(), on_seam);
+}
+
 /// Two runs that follow each other, without those lost between them.
 Result<void> Maker::join(Run& before, Run& after) const {
   const double angle = elementary::atan2(cross(before.last_normal, after.first_normal),
@@ -225,10 +214,8 @@ Result<void> Maker::join(Run& before, Run& after) const {
     return {};
   }
   // Coordinates of a drawing are rounded, so that its tangent pieces meet at a small angle.
-  // Where an edge crosses a seam, only its line on the bore has a corner.
-  const bool at_seam = laying_.over() != nullptr && !laying_.parallel() &&
-                       std::abs(cross(before.last_along, after.first_along)) < kSmooth;
-  const bool smooth = at_seam || 0.5 * cutting_.kerf * (1.0 - elementary::cos(angle)) <= kLeft;
+  const bool smooth =
+      bends_at_seam(before, after) || 0.5 * cutting_.kerf * (1.0 - elementary::cos(angle)) <= kLeft;
   if (!cutting_.as_cut && !smooth)
     return fail({.code = ErrorCode::out_of_range,
                  .member = "pieces/" + std::to_string(before.piece),
@@ -238,7 +225,7 @@ Result<void> Maker::join(Run& before, Run& after) const {
                  .hint = "round the corner at its end by an arc of this radius, or accept what the "
                          "beam leaves: corners as_cut"});
   const auto met = crossing(before.rows, after.rows);
-  if (!met && smooth) return {};
+  if (!met && (smooth || over_square())) return {};
   if (!met)
     return fail({.code = ErrorCode::out_of_range,
                  .hint = "beside a corner the contour is narrower than the kerf"});
@@ -247,7 +234,7 @@ Result<void> Maker::join(Run& before, Run& after) const {
   return {};
 }
 
-Result<std::vector<Row>> Maker::make() {
+Result<std::vector<AxisRow>> Maker::make() {
   std::vector<Run> runs;
   std::vector<std::size_t> live;
   for (const auto& s : chain_) {
@@ -269,7 +256,7 @@ Result<std::vector<Row>> Maker::make() {
     return fail({.code = ErrorCode::out_of_range, .hint = "it is narrower than the kerf"});
   for (std::size_t i = 0; i < live.size() && runs.size() > 1; ++i)
     TRY(join(runs[live[i]], runs[live[(i + 1) % live.size()]]));
-  std::vector<Row> out;
+  std::vector<AxisRow> out;
   auto at = runs[live.back()].rows.back().torch;  // the axis waits there where the beam cannot go
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].lost)
@@ -282,23 +269,8 @@ Result<std::vector<Row>> Maker::make() {
     if ((runs[i].rows.back().torch - next.rows.front().torch).norm() > kSame && !next.lost)
       out.push_back(runs[i].rows.back());
   }
+  if (over_square() && !check_line(out)) turn_in_hollows(cutting_.kerf, out);
   return out;
-}
-
-/// The torch's line must not cross itself: where it does, the contour is narrower than the kerf.
-Result<void> check_line(const std::vector<Row>& rows) {
-  math::Polygon line;
-  for (const auto& row : rows) {
-    line.x.push_back(row.torch.x());
-    line.y.push_back(row.torch.y());
-  }
-  double twice = 0.0;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    twice += cross(rows[i].torch, rows[(i + 1) % rows.size()].torch);
-  const double crossed = math::crossed_area(line);
-  if (stopped()) return fail({.code = ErrorCode::cancelled});  // because the area is half summed
-  if (twice > 0.0 && !(crossed > kLineCrossed * twice)) return {};
-  return fail({.code = ErrorCode::out_of_range, .hint = "somewhere it is narrower than the kerf"});
 }
 
 }  // namespace

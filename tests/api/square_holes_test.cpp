@@ -337,6 +337,51 @@ TEST(SquareHoles, StandNextToRoundOnesInOneChord) {
   }
 }
 
+/// Over corners: a tube as wide as the rail set on it, a square brace that leans, and a stay that
+/// leans to the side through both walls.
+TEST(SquareHoles, GoOverCorners) {
+  const auto body = rail_with(
+      R"({"branch": {"id": "post", "size": "CHS 60.3x3.2",
+                     "axis": {"point_mm": [0, 0, 120], "direction": [1, 0, 0]}},
+          "joint": {"kind": "set_on"}},
+         {"branch": {"id": "brace", "size": "SHS 50x50x3 EN 10219", "up": [0, 1, 0],
+                     "axis": {"point_mm": [0, 0, 240], "direction": [1, 0, 1]}},
+          "joint": {"kind": "set_in", "gap_mm": 0.3}},
+         {"branch": {"id": "stay", "size": "CHS 42.4x2.6",
+                     "axis": {"point_mm": [0, 0, 460], "direction": [0.2, 1, -0.5]}},
+          "joint": {"kind": "through", "gap_mm": 0.5}})");
+  const auto answer = post(kParts, body);
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 1500);
+  const auto& groups = *at(answer.body, "result/cutouts").as<Json::Array>();
+  ASSERT_EQ(groups.size(), 4U);
+  for (const auto& group : groups) EXPECT_EQ(text(group, "wall"), "developed");
+  // The post's bore on the outside: 53.9 along the rail, and round the corners of 6 mm.
+  const double half = 0.5 * 60.3 - 3.2, round = 24.0 + 6.0 * std::asin((half - 24.0) / 6.0);
+  EXPECT_NEAR(number(groups[0], "instances/0/z_from_mm"), 120.0 - half, 1e-3);
+  EXPECT_NEAR(number(groups[0], "instances/0/girth_to_mm"), round, 1e-3);
+  EXPECT_NEAR(number(groups[0], "instances/0/girth_from_mm"), -round, 1e-3);
+  for (std::size_t i = 1; i < groups.size(); ++i)
+    EXPECT_GT(number(groups[i], "hole/greatest_gap_mm"), number(groups[i], "hole/gap_mm"));
+  // The stay leaves by opposite faces, alike.
+  EXPECT_NEAR(number(groups[2], "area_outer_mm2") / number(groups[3], "area_outer_mm2"), 1.0, 1e-6);
+  const auto wide = with(body, "holes/1/branch/size", Json{"SHS 60x60x3 EN 10219"});
+  expect_refused(kParts, wide, "/holes/1/branch", "open_profile");
+}
+
+/// A square branch that leans in a round tube.
+TEST(SquareHoles, OfALeaningBranchGoIntoARoundTube) {
+  auto body = with(rail_with(kBranch), "target/size", Json{"CHS 60.3x3.2"});
+  body = with(body, "holes/0/branch/axis/direction", parsed("[1, 0, 0.8]"));
+  const auto answer = post(kParts, body);
+  ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 1500);
+  const auto& groups = *at(answer.body, "result/cutouts").as<Json::Array>();
+  ASSERT_EQ(groups.size(), 2U);
+  for (const auto& group : groups) {
+    EXPECT_EQ(text(group, "wall"), "developed");
+    EXPECT_GT(number(group, "hole/greatest_gap_mm"), 0.5);
+  }
+}
+
 TEST(SquareHoles, HaveNamesOfTheirOwn) {
   auto body = rail_with(std::string(kBranch) + "," + kBranch + "," + kBranch);
   for (int i = 0; i < 3; ++i) {

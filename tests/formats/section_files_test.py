@@ -256,6 +256,44 @@ class SectionFiles(FormatTest):
                 solids += 1
         self.assertGreater(solids, 3)
 
+    def test_step_of_holes_of_branches_over_corners_is_one_solid(self):
+        """A branch as wide as the tube set on it, one that leans set in, one that passes through askew; the last also in a round tube."""
+        solids = 0
+        for number in range(8):
+            target, (height, width, wall, _, _) = drawn_section(self.rng)
+            bore = width - 2 * wall
+            lean = [1, self.rng.uniform(-0.1, 0.1), self.rng.uniform(-1, 1)]
+
+            def hole(name, size, z_mm, direction, joint):
+                kind = {} if "outer_diameter_mm" in size else {"kind": "rectangular_tube", "corners": "en_10219", "up": [0, 1, 0.2]}
+                return {"branch": {"id": name, **kind, **size, "wall_mm": 2, "axis": {"point_mm": [0, 0, z_mm], "direction": direction}}, "joint": joint}
+
+            holes = [hole("post", {"outer_diameter_mm": width}, 200, [1, 0, 0], {"kind": "set_on"}),
+                     hole("brace", {"height_mm": 0.9 * bore, "width_mm": 0.8 * bore}, 500, lean, {"kind": "set_in", "gap_mm": 0.3}),
+                     hole("stay", {"outer_diameter_mm": 0.8 * bore}, 900, lean, {"kind": "through", "gap_mm": 0.2})]
+            if number == 0:
+                diameter = max(height, width)
+                target, holes = {"outer_diameter_mm": diameter, "wall_mm": 3}, [
+                    hole("brace", {"height_mm": 0.5 * diameter, "width_mm": 0.4 * diameter}, 500, lean, {"kind": "through", "gap_mm": 0.3})]
+            body = {"preset": "tube_laser", "target": {**target, "length_mm": 1100}, "holes": holes, "kerf_mm": 0.2,
+                    "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}}, "sampling": {"tolerance_mm": 0.05}}
+            status, _, content = self.service.ask("parts", body)
+            if status == 422:  # the branch reaches the tube's side
+                self.assertNotEqual(number, 0, content)
+                self.assertIn(b"open_profile", content)
+                continue
+            answer = json.loads(content)
+            with self.subTest(number, target=target):
+                solid = step_reader.Solid(step_reader.File(self.service.text("parts", body, "format=step").decode("ascii")))
+                self.assertEqual(step_reader.faults(solid, 1 + len(answer["result"]["cutouts"])), [])
+                self.assertAlmostEqual(step_volume.volume(solid) / answer["result"]["lengths"]["volume_mm3"], 1, delta=2e-5)
+                over = [one["id"] for one in answer["result"]["cutouts"] if one["wall"] == "developed"]
+                if number:
+                    status, _, content = self.service.ask("parts", body, "format=nc1")
+                    self.assertEqual((status, b"goes over a corner" in content), (422, True) if over else (200, False))
+                solids += 1
+        self.assertGreater(solids, 3)
+
     def drawn_step_part(self):
         rng = self.rng
         target, lengths = drawn_section(rng)
