@@ -54,6 +54,7 @@ const exampleNames: Record<string, string> = {
   'parts/chs-brace-with-gusset-slits': later('A brace with slits for gussets'),
   'parts/rhs-door-frame-with-countersinks': later('A door jamb with countersunk holes and a slit'),
   'parts/shs-gate-post': later('A gate post with vent holes at its corners'),
+  'parts/shs-chord-with-branches-over-corners': later('A square rail with branches over its corners'),
   'parts/tube-laser-chord': later('A chord cut square by a tube laser'),
   'parts/gate-rail-of-60x40-mitred': later('A gate rail of 60 × 40, mitred'),
   'frames/jacket-node-with-set-in-stubs': later('A jacket node with set-in stubs'),
