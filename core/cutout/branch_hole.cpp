@@ -243,7 +243,7 @@ Anchor anchor_of(const Shadow& shadow, const joint::Target& tube, const section:
   return {.z = shadow.z, .face = face, .offset = std::abs(offset) > kRounded ? offset : 0.0};
 }
 
-/// The hole as what a wall square to the outside meets of the branch, wherever it leaves the tube.
+/// The hole as the branch's shadow on a wall square to the outside, wherever it leaves the tube.
 Result<BranchHole> shadow_hole(const Branch& branch, const joint::Target& tube,
                                const section::Wall* wall, Angle zero, std::string id) {
   const auto axes = axes_of(branch);

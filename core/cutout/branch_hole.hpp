@@ -37,7 +37,7 @@ struct BranchHole {
 /// passes through also one on the other side ("id.far"). Set-on: the branch's bore; else its
 /// outside, grown by the gap. On a flat, and at a right angle in a round tube, the outline is the
 /// hull of the branch's outlines on the outside and on the bore; over corners, and if the branch
-/// leans in a round tube, it is what a wall square to the outside meets of the branch.
+/// leans in a round tube, it is the branch's shadow on a wall square to the outside.
 ///
 /// `wall` is of a tube that is not round, else nullptr; `zero`: the part's phi = 0 in the start's
 /// frame.

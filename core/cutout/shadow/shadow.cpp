@@ -23,7 +23,7 @@ constexpr double kBeyond = 1e-10;    // mm, that another contact must reach furt
 constexpr double kAside = 1e-9;      // mm, from a seam
 constexpr double kNarrow = 1e-6;     // mm of s that make no piece
 constexpr double kApart = 1.5e-6;    // mm, between places that need a line
-constexpr int kPlaces = 24;          // of each stretch of s, for changes of what touches
+constexpr int kPlaces = 24;          // of each stretch of s, for changes of the contact
 constexpr double kBesideEnd = 1e-7;  // of a stretch
 constexpr int kHalvings = 14;        // of a piece
 constexpr double kLevel = 1e-12;     // mm: a line that runs along z in the branch's plane
@@ -33,7 +33,7 @@ struct Seen {
   Vector2d outer, bore, outer_rate, bore_rate;
 };
 
-/// What of the outline touches a line, and where on the line.
+/// The part of the outline that touches a line, and its place on the line.
 struct Contact {
   enum class Kind { outer, bore, between, corner };
   Kind kind = Kind::outer;

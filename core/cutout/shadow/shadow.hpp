@@ -7,7 +7,7 @@
 #include "core/cutout/hull.hpp"
 #include "core/cutout/shadow/square_lines.hpp"
 
-/// What a prism along a branch's axis meets of a wall whose lines are square to the outside.
+/// The shadow of a prism along a branch's axis on a wall whose lines are square to the outside.
 namespace tubecut::cutout {
 
 struct Prism {

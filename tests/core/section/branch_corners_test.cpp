@@ -35,7 +35,8 @@ double distance_to(double height, double width, double radius, const Vector2d& p
   return q.cwiseMax(0.0).norm() + std::min(std::max(q.x(), q.y()), 0.0) - radius;
 }
 
-/// The distance of a place from what the hole follows: the outside, or of a set-on branch the bore.
+/// The distance of a place from the surface that the hole follows: the branch's outside, or its
+/// bore if it is set on.
 double off_branch(const Branch& branch, const Vector3d& place) {
   const Vector3d d = branch.axis.direction.normalized();
   const Vector3d p = place - branch.axis.point;
@@ -90,9 +91,9 @@ std::pair<double, double> gaps(const section::Section& section, const Branch& br
   return {off(0.5 * (low + high)), std::max(off(0.0), off(1.0))};
 }
 
-/// The hole is exactly what the branch with its gap requires of a wall square to the outside.
+/// The hole is as large as the branch with its gap requires of a wall square to the outside.
 void expect_fits(const section::Section& section, const Branch& branch, const BranchHole& hole,
-                 Random& random, const std::string& what) {
+                 Random& random, const std::string& label) {
   const auto [s0, z0, chain] = laid(section, hole);
   const bool on = branch.kind == JointKind::set_on;
   double least = 1e9, most = -1e9, widest = 0.0;
@@ -107,11 +108,11 @@ void expect_fits(const section::Section& section, const Branch& branch, const Br
       widest = std::max(widest, far);
     }
   const double gap = on ? 0.0 : branch.gap;
-  EXPECT_GT(least, gap - kFit) << what;
-  EXPECT_LT(most, gap + kFit) << what;
+  EXPECT_GT(least, gap - kFit) << label;
+  EXPECT_LT(most, gap + kFit) << label;
   if (!on) {
-    EXPECT_NEAR(widest, hole.greatest_gap, 0.02) << what;
-    EXPECT_LT(widest, hole.greatest_gap + 1e-3) << what;
+    EXPECT_NEAR(widest, hole.greatest_gap, 0.02) << label;
+    EXPECT_LT(widest, hole.greatest_gap + 1e-3) << label;
   }
   const auto box = bounds(chain);
   for (int i = 0; i < 400; ++i) {
@@ -123,9 +124,9 @@ void expect_fits(const section::Section& section, const Branch& branch, const Br
     if (q.dot(branch.axis.direction.head<2>()) < 0.0) continue;
     const double off = off_branch(branch, {q.x(), q.y(), z0 + p.x()});
     if (off < gap - kFit) {
-      EXPECT_TRUE(holds(chain, p)) << what << " " << p.transpose();
+      EXPECT_TRUE(holds(chain, p)) << label << " " << p.transpose();
     } else if (on && off > kFit) {
-      EXPECT_FALSE(holds(chain, p)) << what << " " << p.transpose();
+      EXPECT_FALSE(holds(chain, p)) << label << " " << p.transpose();
     }
   }
 }
@@ -160,18 +161,18 @@ TEST(BranchCorners, AreWhatTheBranchRequiresOfASquareWall) {
     const section::Wall wall(section);
     const int face = static_cast<int>(random() % 4) + 1;
     const auto branch = drawn_branch(random, section, face, i % 3);
-    const auto what = std::to_string(i) + (branch.section ? " square" : " round") +
-                      (branch.kind == JointKind::set_on ? " on" : " in");
+    const auto label = std::to_string(i) + (branch.section ? " square" : " round") +
+                       (branch.kind == JointKind::set_on ? " on" : " in");
     const auto holes = holes_for(branch, "h", {}, &wall, {});
     if (!holes) {
       EXPECT_EQ(holes.error().code(), ErrorCode::open_profile)
-          << what << holes.error().issues.front().hint;
+          << label << holes.error().issues.front().hint;
       ++open;
       continue;
     }
     if (holes->front().spec.wall != Wall::developed) continue;
     ++over;
-    expect_fits(section, branch, holes->front(), random, what);
+    expect_fits(section, branch, holes->front(), random, label);
   }
   std::cout << over << " over corners, " << open << " open\n";
   EXPECT_GE(over, 100);
@@ -200,18 +201,18 @@ TEST(BranchCorners, PassTheChecksOfTheirPart) {
     if (!holes || holes->front().spec.wall != Wall::developed) continue;
     const auto spec = part_with(section, branch, 0.2);
     const auto made = part::section_part(spec);
-    const auto what = std::to_string(i) + (branch.section ? " square" : " round") +
-                      (branch.kind == JointKind::set_on ? " on" : " in");
+    const auto label = std::to_string(i) + (branch.section ? " square" : " round") +
+                       (branch.kind == JointKind::set_on ? " on" : " in");
     if (!made) {
       ++tight;
-      std::cout << what << " " << made.error().issues.front().member << " "
+      std::cout << label << " " << made.error().issues.front().member << " "
                 << made.error().issues.front().hint << "\n";
       continue;
     }
     ++over;
     for (const auto& check : part::verify(spec, *made))
-      EXPECT_LE(check.value, check.limit) << check.name << " of " << what;
-    EXPECT_NE(made->cutouts.moulds.front().laying.over(), nullptr) << what;
+      EXPECT_LE(check.value, check.limit) << check.name << " of " << label;
+    EXPECT_NE(made->cutouts.moulds.front().laying.over(), nullptr) << label;
   }
   std::cout << over << " parts, " << tight << " refused\n";
   EXPECT_GT(over, 25);
@@ -219,7 +220,7 @@ TEST(BranchCorners, PassTheChecksOfTheirPart) {
 }
 
 /// The beam opens the hole down to the bore: the finished edge there is within half a kerf of an
-/// axis, but for what the straight ways between rows and hollows at seams leave.
+/// axis, except for metal that the straight ways between rows and hollows at seams leave.
 TEST(BranchCorners, AreOpenedByTheBeam) {
   constexpr double kLeft = 0.02;  // mm
   constexpr int kBetween = 8;     // beams from row to row
