@@ -23,8 +23,6 @@ using detail::Joined;
 using Eigen::Vector3d;
 using joint::End;
 
-constexpr double kEquallyNear = 1e-6;  // mm
-
 std::string at_joint(std::size_t i) { return "joints/" + std::to_string(i); }
 std::string at_other(std::size_t i) { return "others/" + std::to_string(i); }
 
@@ -80,19 +78,6 @@ Result<void> check_others(const FrameSpec& spec) {
   return {};
 }
 
-/// Distance from a point to the surface, unsigned.
-struct Off {
-  const Vector3d& point;
-  double operator()(const joint::AxisTube& t) const {
-    const Vector3d d = t.axis.direction.normalized();
-    return std::abs((point - t.axis.point).cross(d).norm() - t.radius);
-  }
-  template <class Kind>
-  double operator()(const Kind& kind) const {
-    return std::abs(kind.solid().distance(point));
-  }
-};
-
 joint::Nearness near(const joint::Member& branch, End end, const joint::Member& chord) {
   return joint::nearness(branch.at(end), {chord.start, chord.finish, 0.0});
 }
@@ -104,8 +89,8 @@ End nearer_end(const joint::Member& branch, const joint::Member& chord) {
 /// Returns true if the branch ends between the chord's ends, as a rail on a post does, and is not
 /// too wide for it.
 bool ends_between(const joint::Member& branch, const joint::Member& chord) {
-  const double inside = near(branch, nearer_end(branch, chord), chord).inside;
-  return joint::detail::runs_past(chord, branch, inside, 0.0);
+  const auto end = nearer_end(branch, chord);
+  return joint::detail::runs_past(chord, branch, end, near(branch, end, chord).inside, 0.0);
 }
 
 /// Returns the link of two members that are joined only by a statement: the branch's end at the
@@ -173,6 +158,7 @@ Result<Joined> stated(const FrameSpec& spec) {
     }
     if (said.other) {
       TRY(const auto end, detail::end_at(spec, i));
+      TRY(detail::check_near_other(spec, i, end));
       const auto index = 2 * said.member + (end == End::finish ? 1 : 0);
       if (!at_others.emplace(index, said.with).second)
         return contradicts(i, {}, "this end's joint with it is stated already");
@@ -342,20 +328,6 @@ std::vector<std::size_t> round_holes(const std::vector<Hole>& holes) {
   for (std::size_t i = 0; i < holes.size(); ++i)
     if (!holes[i].square) out.push_back(i);
   return out;
-}
-
-Result<End> detail::end_at(const FrameSpec& spec, std::size_t index) {
-  const auto& said = spec.joints[index];
-  if (said.end) return *said.end;
-  if (said.plate) return at_plate(spec, index).map([](const AtPlate& at) { return at.end; });
-  const auto& m = spec.members[said.member];
-  const auto& partner = spec.others[said.with].partner;
-  const double start = joint::by_kind(partner, Off{m.start});
-  const double finish = joint::by_kind(partner, Off{m.finish});
-  if (std::abs(start - finish) > kEquallyNear) return start < finish ? End::start : End::finish;
-  return fail({.code = ErrorCode::ambiguous_connection,
-               .member = at_joint(index),
-               .hint = "both ends are equally near; select one with end"});
 }
 
 Result<Frame> solve(const FrameSpec& spec) {

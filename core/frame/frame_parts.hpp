@@ -56,6 +56,21 @@ struct Joined {
 /// Errors  ambiguous_connection (joints/i: both are equally near).
 [[nodiscard]] Result<joint::End> end_at(const FrameSpec& spec, std::size_t index);
 
+/// The distance of an end of a joint from the surface that cuts it, along its axis. `what` that is,
+/// and what may be done instead, for errors.
+struct EndOff {
+  double distance = 0.0;  // mm
+  std::string what, instead = {};
+};
+/// An end is at most so far from a surface as one may be from a member as wide as its own, because
+/// the cut would move it by more than anybody draws it short or long.
+/// Errors  no_contact (joints/i).
+[[nodiscard]] Result<void> check_near(std::size_t index, const joint::Member& member,
+                                      const EndOff& off);
+/// Checks the end of a stated joint with one of the others.
+[[nodiscard]] Result<void> check_near_other(const FrameSpec& spec, std::size_t index,
+                                            joint::End end);
+
 /// Errors  as `solve`.
 [[nodiscard]] Result<std::vector<Piece>> pieces(const FrameSpec& spec, const Joined& joined);
 

@@ -9,6 +9,7 @@
 #include "core/joint/finished.hpp"
 #include "core/joint/node/in_line.hpp"
 #include "core/joint/node/node_parts.hpp"
+#include "core/plate/metal.hpp"
 #include "core/plate/web.hpp"
 
 namespace tubecut::frame::detail {
@@ -52,21 +53,12 @@ Result<End> end_of_joint(const FrameSpec& spec, std::size_t index, const Heights
                .hint = "both ends are equally near; select one with end"});
 }
 
-/// An end is at most so far from the plate as one may be from a member as wide as its own, because
-/// the cut would move it by more than anybody draws it short or long.
-Result<void> check_near(std::size_t index, const joint::Member& member, double height,
-                        double thickness, double slope) {
-  const double outside = std::max(height, -thickness - height);
-  const double most = joint::detail::far_end(member, member);
-  if (!(outside > most * std::abs(slope))) return {};
-  return fail({.code = ErrorCode::no_contact,
-               .member = joint_path(index),
-               .got = outside / std::abs(slope),
-               .limit = most,
-               .unit = "mm",
-               .hint = "the member's end is too far from the plate along its axis: the joint would "
-                       "cut off or add that much; move the end or the plate, or, if the member "
-                       "passes the plate, use through"});
+/// Returns how far an end is outside of the plate, along the member's axis.
+EndOff off_plate(double height, double thickness, double slope) {
+  const double outside = std::max({height, -thickness - height, 0.0});
+  return {.distance = outside > 0.0 ? outside / std::abs(slope) : 0.0,
+          .what = "the plate",
+          .instead = ", or, if the member passes the plate, use through"};
 }
 
 /// A member that passes through reaches beyond both faces.
@@ -144,33 +136,6 @@ Result<FramePlate> one_plate(const FrameSpec& spec, const Joined& joined, std::s
   return out;
 }
 
-/// A plate's metal.
-class Metal {
- public:
-  Metal(const plate::Plate& plate, double thickness) : plate_(plate), thickness_(thickness) {
-    for (const auto& hole : plate.holes) boxes_.push_back(cutout::bounds(hole.chain));
-  }
-
-  /// Returns how deep a place of the plate's frame is in it; below 0 outside.
-  [[nodiscard]] double depth(const Vector3d& p) const {
-    double out = std::min(-p.z(), p.z() + thickness_);
-    const Flat flat = p.head<2>();
-    if (out <= 0.0 || !plate::encloses(plate_.outline, flat)) return -1.0;
-    out = std::min(out, cutout::distance(plate_.outline, flat));
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      if (plate::box_gap(boxes_[i], {flat, flat}) >= out) continue;
-      if (plate::encloses(plate_.holes[i].chain, flat)) return -1.0;
-      out = std::min(out, cutout::distance(plate_.holes[i].chain, flat));
-    }
-    return out;
-  }
-
- private:
-  const plate::Plate& plate_;
-  double thickness_;
-  std::vector<cutout::Bounds> boxes_;
-};
-
 struct Deep {
   double depth = 0.0;
   Vector3d at = Vector3d::Zero();  // in the plate's frame
@@ -180,7 +145,7 @@ struct Deep {
 /// the bore.
 Deep deepest(const joint::detail::Finished& m, const plate::Plate& plate, double thickness) {
   Deep out;
-  const Metal metal(plate, thickness);
+  const plate::Metal metal(plate, thickness);
   const Vector3d along = plate.frame.rows * m.axis;
   for (const double rho : {m.outer, m.inner})
     for (int k = 0; k < kGeneratorsOfWall; ++k) {
@@ -211,6 +176,29 @@ bool may_enter(const joint::Member& m, const plate::Plate& plate, double thickne
   const Vector3d low = a.cwiseMin(b).array() - m.reach(), high = a.cwiseMax(b).array() + m.reach();
   return low.x() < box.most.x() && high.x() > box.least.x() && low.y() < box.most.y() &&
          high.y() > box.least.y() && low.z() < 0.0 && high.z() > -thickness;
+}
+
+/// Warns of plates that overlap, at the earlier one.
+Result<void> add_shared(const FrameSpec& spec, const std::vector<FramePlate>& plates,
+                        std::vector<Warning>& out) {
+  std::vector<plate::Metal> metal;
+  for (std::size_t k = 0; k < plates.size(); ++k)
+    metal.emplace_back(plates[k].plate, spec.plates[k].thickness);
+  std::size_t found = 0;
+  for (std::size_t a = 0; a < metal.size(); ++a)
+    for (std::size_t b = a + 1; b < metal.size(); ++b) {
+      if (stopped()) return fail({.code = ErrorCode::cancelled});
+      const auto shared = plate::shared_metal(metal[a], metal[b]);
+      if (!shared) continue;
+      out.push_back({.code = WarningCode::members_overlap,
+                     .member = plate_path(a),
+                     .detail = "it and " + spec.plates[b].name + " share metal, up to " +
+                               brief(shared->depth) + " mm deep, at " + brief(shared->at.x()) +
+                               ", " + brief(shared->at.y()) + ", " + brief(shared->at.z()) +
+                               " mm"});
+      if (++found > joint::kMostOverlaps) return joint::too_many_overlaps(found);
+    }
+  return {};
 }
 
 /// Returns how far an outline reaches beyond the plate's.
@@ -264,7 +252,7 @@ Result<AtPlate> at_plate(const FrameSpec& spec, std::size_t index) {
                  .hint = "the member's other end lies between the faces of the plate, so it is not "
                          "known which face it is set on"});
   const Vector3d axis = (m.finish - m.start).normalized();
-  TRY(check_near(index, m, heights.at(out.end), thickness, axis.dot(frame.rows.row(2))));
+  TRY(check_near(index, m, off_plate(heights.at(out.end), thickness, axis.dot(frame.rows.row(2)))));
   if (said.how.kind == How::Kind::set_on) {
     out.face = plane_at(frame, out.front ? 0.0 : -thickness, out.front);
     return out;
@@ -342,6 +330,7 @@ Result<std::vector<Warning>> warnings_of_plates(const FrameSpec& spec, const Joi
                                " mm, and no joint names the two"});
     }
   }
+  TRY(add_shared(spec, plates, out));
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 
+#include "core/base/angle.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {
@@ -99,6 +100,47 @@ TEST(OthersOverlap, ABarThroughARailIsForReviewAndOneBesideItIsNot) {
     EXPECT_NE(found[0].find("rail"), std::string::npos) << found[0];
     EXPECT_EQ(text(answer.body, "verdict/status"), "review") << n;
   }
+}
+
+/// A leg of 42.4 whose end is this far above a floor, leaning by so many degrees.
+api::Json above_floor(double height, double lean, const char* kind) {
+  const double run = 900.0 * std::tan(lean * kRadPerDeg);
+  const auto at = [](double x, double z) {
+    return "[" + std::to_string(x) + ", 0, " + std::to_string(z) + "]";
+  };
+  const std::string plane = R"({"kind": "plane", "id": "floor", "point_mm": [0, 0, 0],
+                                "normal": [0, 0, 1]})";
+  const std::string pipe = R"({"kind": "tube", "id": "floor", "outer_diameter_mm": 60.3,
+      "axis": {"point_mm": [0, 0, -30.15], "direction": [0, 1, 0]}})";
+  return *api::parse(R"({"preset": "tube_laser", "kerf_mm": 0.2, "members": [{"id": "leg",
+      "start_mm": )" +
+                     at(0, height) + R"(, "end_mm": )" + at(run, height + 900.0) +
+                     R"(, "outer_diameter_mm": 42.4, "wall_mm": 3}], "others": [)" +
+                     (std::string(kind) == "plane" ? plane : pipe) +
+                     R"(], "joints": [{"between": ["leg", "floor"], "kind": "set_on",
+                                       "end": "start"}]})");
+}
+
+/// An end is not lengthened further than to a member or a plate: 1.5 times twice its radius.
+TEST(OthersOverlap, AnEndFarFromABodyIsNotLengthenedToIt) {
+  constexpr double kMost = 1.5 * 42.4;
+  for (const char* kind : {"plane", "pipe"})
+    for (const double lean : {0.0, 30.0}) {
+      if (std::string(kind) == "pipe" && lean > 0.0) continue;
+      const double along = std::cos(lean * kRadPerDeg);
+      for (const double way : {-60.0, 0.0, 0.99 * kMost}) {
+        const auto near = post("/v1/frames", above_floor(way * along, lean, kind));
+        EXPECT_FALSE(near.outcome.error) << kind << way << near.outcome.body.substr(0, 500);
+      }
+      for (const double way : {1.01 * kMost, 1000.0}) {
+        const auto far = post("/v1/frames", above_floor(way * along, lean, kind));
+        ASSERT_TRUE(far.outcome.error) << kind << way;
+        EXPECT_EQ(text(far.body, "errors/0/code"), "no_contact");
+        EXPECT_EQ(text(far.body, "errors/0/pointer"), "/joints/0");
+        EXPECT_NEAR(number(far.body, "errors/0/got"), way, 1e-3);
+        EXPECT_NEAR(number(far.body, "errors/0/limit"), kMost, 1e-9);
+      }
+    }
 }
 
 }  // namespace

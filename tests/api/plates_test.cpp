@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/base/angle.hpp"
@@ -131,6 +133,78 @@ TEST(FramePlates, ATubeThroughAPlateWithoutAJointIsReported) {
 }
 
 /// The wall of the post is 4 mm thick, from a radius of 40.45 to one of 44.45.
+/// A plate of 200 x 10 x 100 mm that stands `off` mm above the base plate's face, at an angle in
+/// plan.
+Json gusset(double off, double turned, const std::string& more = "") {
+  const double c = std::cos(turned * kRadPerDeg), s = std::sin(turned * kRadPerDeg);
+  const auto out = [](double v) { return std::to_string(std::round(v * 1e3) / 1e3); };
+  return parsed(R"({"id": "G", "point_mm": [)" + out(-5.0 * s) + ", " + out(5.0 * c) + ", " +
+                out(off + 50.0) + R"(], "normal": [)" + std::to_string(-s) + ", " +
+                std::to_string(c) +
+                R"(, 0], "up": [0, 0, 1], "thickness_mm": 10,
+                   "outline": {"kind": "rectangle", "width_mm": 160, "height_mm": 100})" +
+                more + "}");
+}
+
+/// Returns the depths that are told of plates that overlap.
+std::vector<std::string> shared_by_plates(const Json& asked) {
+  const auto answer = post(kFrames, asked);
+  EXPECT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 600);
+  std::vector<std::string> out;
+  for (const auto& w : *at(answer.body, "warnings").as<Json::Array>())
+    if (text(w, "code") == "members_overlap" && text(w, "pointer").starts_with("/plates/"))
+      out.push_back(text(w, "pointer") + text(w, "detail"));
+  return out;
+}
+
+/// Plates that only touch, also turned in plan with three decimals, do not overlap; one that is
+/// 0.4 mm deep in another does, whichever is given first.
+TEST(FramePlates, PlatesThatOverlapAreReported) {
+  const auto base = at(frame(), "plates/0");
+  const auto both = [&](const Json& other, bool first) {
+    auto asked = with(frame(), "members", Json{Json::Array{at(frame(), "members/0")}});
+    asked = with(asked, "joints", Json{Json::Array{at(frame(), "joints/0")}});
+    return with(asked, "plates", Json{first ? Json::Array{other, base} : Json::Array{base, other}});
+  };
+  for (const double turned : {0.0, 31.7, 90.0})
+    for (const bool first : {true, false}) {
+      for (const double off : {0.0, 0.02, 5.0})
+        EXPECT_TRUE(shared_by_plates(both(gusset(off, turned), first)).empty()) << turned;
+      for (const double off : {-0.4, -7.0, -14.6, -60.0}) {
+        const auto found = shared_by_plates(both(gusset(off, turned), first));
+        ASSERT_EQ(found.size(), 1U) << turned << " " << off;
+        EXPECT_EQ(found[0].rfind("/plates/0it and " + std::string(first ? "BP" : "G"), 0), 0U)
+            << found[0];
+      }
+    }
+  // The same plate twice, side by side, and one on the other.
+  for (const auto& [x, z, count] : {std::tuple{0.0, 0.0, 1U},
+                                    {200.0, 0.0, 0U},
+                                    {199.0, 0.0, 1U},
+                                    {0.0, 15.0, 0U},
+                                    {0.0, 14.0, 1U},
+                                    {30.0, -14.0, 1U}}) {
+    auto other = with(base, "id", Json{"second"});
+    other = with(other, "point_mm", Json{Json::Array{x, 0.0, z}});
+    EXPECT_EQ(shared_by_plates(both(other, false)).size(), count) << x << " " << z;
+  }
+}
+
+/// A plate in the slot of another shares no metal with it.
+TEST(FramePlates, APlateInASlotDoesNotOverlap) {
+  for (const auto& [width, count] : {std::pair{10.4, 0U}, {10.0, 0U}, {8.0, 1U}}) {
+    auto base = with(at(frame(), "plates/0"), "cutouts",
+                     parsed(R"([{"id": "slot", "shape": {"kind": "rectangle", "width_mm": 161,
+                                 "height_mm": )" +
+                            std::to_string(width) + R"(}, "at_mm": [0, 0]}])"));
+    auto asked = with(frame(), "members", Json{Json::Array{at(frame(), "members/1")}});
+    asked = with(asked, "joints", Json{Json::Array{at(frame(), "joints/1")}});
+    asked =
+        with(asked, "plates", Json{Json::Array{base, at(frame(), "plates/1"), gusset(-40.0, 0.0)}});
+    EXPECT_EQ(shared_by_plates(asked).size(), count) << width;
+  }
+}
+
 TEST(FramePlates, AWallOverAnOpeningIsReported) {
   const auto over = [](double x, double diameter) {
     auto hole = parsed(R"({"id": "h", "shape": {"kind": "circle"}})");
