@@ -101,6 +101,8 @@ std::vector<InWorld> cutters_at(const FrameSpec& spec, const Joined& joined, std
     if (cut.box) {
       auto box = joint::box_of(m);
       box.corner = cut.box->corner;  // sharp where two ends share it
+      box.height = cut.box->height;  // larger where the end is wider than its face
+      box.width = cut.box->width;
       one.partner = box;
     }
     if (cut.plane)

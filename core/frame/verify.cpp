@@ -132,11 +132,20 @@ class Proof {
             beside(axis_of(at, *tube), axis_of(spec_.members[other]), at.origin, mate.reach),
             size_of(*tube));
       if (const auto* box = std::get_if<joint::RectangularTubeCutter>(&cut.partners[k]))
-        see_box(at, *box, spec_.members[other], mate.reach);
+        see_box(at, *box, met(*box, spec_.members[other], m), mate.reach);
       if (const auto* plane = std::get_if<joint::PlaneCutter>(&cut.partners[k]))
         mate.faces.emplace_back(at, *plane);
       mate.of_ends.push_back(bevel::stated_joint(cut, k).value_or(joint::Joint{}));
     }
+  }
+
+  /// Returns the partner of a box by its sizes: as it is, or with a face that goes on to both
+  /// sides.
+  static joint::Member met(const joint::RectangularTubeCutter& box, const joint::Member& other,
+                           const joint::Member& m) {
+    const bool plain =
+        other.section && box.height == other.section->height && box.width == other.section->width;
+    return plain ? other : joint::detail::as_met(other, m);
   }
 
   /// A partner that is not round: its axis, its sides, and where its height points.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -367,6 +368,112 @@ TEST(EverydayFrames, ARafterEndsOnTheBeamAndNotOnThePostBelow) {
         EXPECT_GT(number(joint, "weld_mm"), 200.0) << turned;
       }
   }
+}
+
+/// Rails as wide as one side of rectangular legs: flush with it, they end on the legs only, so that
+/// the table has as many parts and joints turned in plan with three decimals as it has straight.
+TEST(EverydayFrames, ATableTurnedInPlanHasTheSameJointsAndParts) {
+  for (const auto& [leg, rail] : {std::pair{"RHS 60x40x3 EN 10219", "SHS 40x40x3 EN 10219"},
+                                  std::pair{"SHS 60x60x3 EN 10219", "SHS 60x60x3 EN 10219"},
+                                  std::pair{"RHS 80x40x3 EN 10219", "RHS 60x40x3 EN 10219"}})
+    for (const double turned : {0.0, 10.0, 45.5, 301.18}) {
+      const Table table{leg, 0, 400, turned};
+      auto members = members_of(table);
+      // Of those, the rails are the second half.
+      const auto rails = members.find(R"({"id": "rail0")");
+      auto changed = members.substr(rails);
+      for (std::size_t at = changed.find(leg); at != std::string::npos;
+           at = changed.find(leg, at + 1))
+        changed.replace(at, std::string(leg).size(), rail);
+      members = members.substr(0, rails) + changed;
+      const auto answer =
+          post(kFrames, with(frame(members, ""), "connect", parsed(R"({"within_mm": 5})")));
+      ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+      for (const auto& joint : *at(answer.body, "result/joints").as<Json::Array>())
+        EXPECT_TRUE(text(joint, "chord").starts_with("leg"))
+            << leg << " " << turned << " " << text(joint, "branch") << text(joint, "chord");
+      EXPECT_EQ(at(answer.body, "result/joints").as<Json::Array>()->size(), 8u) << turned;
+      std::map<std::string, std::size_t> parts;
+      for (const auto& row : *at(answer.body, "result/cut_list").as<Json::Array>())
+        ++parts[text(row, "part").substr(0, 3)];
+      EXPECT_EQ(parts["rai"], 2u) << leg << " " << turned;
+    }
+}
+
+/// A rail of 48.3 between legs of 40, which is wider than they are: it ends flat on their faces, so
+/// that it is as long as the distance of the faces, whichever way it is drawn, listed and turned.
+TEST(EverydayFrames, ARailWiderThanItsLegsEndsFlatOnTheirFaces) {
+  for (const double turned : {0.0, 37.3})
+    for (const double height : {400.0, 775.85})
+      for (const bool rails_first : {false, true})
+        for (const bool back : {false, true}) {
+          const double c = std::cos(turned * kRadPerDeg), s = std::sin(turned * kRadPerDeg);
+          const auto at = [&](double x, double z) {
+            const auto rounded = [](double v) { return std::to_string(std::round(v * 1e3) / 1e3); };
+            return "[" + rounded(c * x) + ", " + rounded(s * x) + ", " + rounded(z) + "]";
+          };
+          const auto up = "[" + std::to_string(c) + ", " + std::to_string(s) + ", 0]";
+          std::string legs, rails;
+          for (int i = 0; i < 3; ++i)
+            legs += (i > 0 ? "," : "") + square("leg" + std::to_string(i), at(700.0 * i, 0),
+                                                at(700.0 * i, 800), "SHS 40x40x3 EN 10219", up, 1);
+          for (int i = 0; i < (height < 500.0 ? 2 : 1); ++i)
+            rails += (i > 0 ? "," : "") + std::string(R"({"id": "rail)") + std::to_string(i) +
+                     R"(", "start_mm": )" + at(700.0 * (back ? i + 1 : i), height) +
+                     R"(, "end_mm": )" + at(700.0 * (back ? i : i + 1), height) +
+                     R"(, "size": "CHS 48.3x3.2", "priority": 1})";
+          const auto asked = frame(rails_first ? rails + "," + legs : legs + "," + rails, "");
+          const auto answer = post(kFrames, with(asked, "connect", parsed(R"({"within_mm": 1})")));
+          ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+          std::set<std::string> codes;
+          for (const auto& w : *testing::at(answer.body, "warnings").as<Json::Array>())
+            if (text(w, "severity") == "cut") codes.insert(text(w, "code"));
+          // 4.15 mm of it lie beside the face, on either side.
+          EXPECT_EQ(codes, (std::set<std::string>{"wall_overhangs"})) << turned << " " << height;
+          for (const auto& row : *testing::at(answer.body, "result/cut_list").as<Json::Array>())
+            if (text(row, "part").starts_with("rail")) {
+              EXPECT_NEAR(number(row, "long_mm"), 660.0, 0.01) << turned << " " << height;
+            }
+          for (const auto& joint : *testing::at(answer.body, "result/joints").as<Json::Array>())
+            EXPECT_TRUE(text(joint, "chord").starts_with("leg")) << text(joint, "chord");
+        }
+}
+
+/// The legs of an A-frame are mitred at its apex, whatever their angle, and a ridge beam between
+/// two of them ends flat on their sides: no end is cut by another's missing metal.
+TEST(EverydayFrames, ARidgeBeamEndsOnTheSidesOfItsAFrames) {
+  for (const double turned : {0.0, 33.7})
+    for (const double run : {300.0, 600.0, 1000.0})
+      for (const int order : {0, 1, 2}) {
+        const double c = std::cos(turned * kRadPerDeg), s = std::sin(turned * kRadPerDeg);
+        const auto at = [&](double x, double y, double z) {
+          const auto rounded = [](double v) { return std::to_string(std::round(v * 1e3) / 1e3); };
+          return "[" + rounded(c * x - s * y) + ", " + rounded(s * x + c * y) + ", " + rounded(z) +
+                 "]";
+        };
+        const auto up = "[" + std::to_string(-s) + ", " + std::to_string(c) + ", 0]";
+        std::vector<std::string> members;
+        for (const int y : {0, 1500})
+          for (const int side : {-1, 1})
+            members.push_back(square("leg" + std::to_string(y + side), at(side * run, y, 0),
+                                     at(0, y, 600), "SHS 40x40x3 EN 10219", up, 1));
+        members.push_back(square("ridge", at(0, 0, 600), at(0, 1500, 600), "SHS 30x30x3 EN 10219",
+                                 "[0, 0, 1]", 1));
+        std::rotate(members.begin(), members.begin() + order, members.end());
+        std::string all;
+        for (const auto& one : members) all += (all.empty() ? "" : ",") + one;
+        auto asked = with(frame(all, ""), "connect", parsed(R"({"within_mm": 1})"));
+        const auto answer = post(kFrames, asked);
+        ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+        for (const auto& w : *testing::at(answer.body, "warnings").as<Json::Array>())
+          if (text(w, "severity") == "cut") {
+            EXPECT_EQ(text(w, "code"), "root_opens") << run << " " << text(w, "detail");
+          }
+        for (const auto& row : *testing::at(answer.body, "result/cut_list").as<Json::Array>())
+          if (text(row, "part") == "ridge") {
+            EXPECT_NEAR(number(row, "long_mm"), 1460.0, 0.01);
+          }
+      }
 }
 
 /// A chord runs past the post that ends on it, by any length: that is no end that misses it.

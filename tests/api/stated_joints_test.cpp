@@ -250,8 +250,8 @@ TEST(StatedJoints, AWiderMemberIsToldTheWayOut) {
     return std::string();
   };
   const std::string beam =
-      R"({"id": "beam", "start_mm": [0, 0, 0], "end_mm": [1000, 0, 0], "up": [0, 0, 1],
-          "size": "SHS 40x40x3 EN 10219", "priority": 1})";
+      R"({"id": "beam", "start_mm": [0, 0, 0], "end_mm": [1000, 0, 0],
+          "outer_diameter_mm": 42.4, "wall_mm": 3, "priority": 1})";
   const auto open = frame({beam, post("")}, joint("post", "beam", "set_on"));
   ASSERT_FALSE(open.outcome.error) << open.outcome.body.substr(0, 600);
   EXPECT_NE(no_part(open).find("lower priority number"), std::string::npos) << no_part(open);

@@ -45,6 +45,20 @@ std::optional<std::size_t> middle_of(const NodeSpec& spec, const std::vector<std
   return std::nullopt;
 }
 
+/// Returns which of the planes of a box's corner lies flattest in the world. If two of three lie
+/// equally flat, as at the apex of an A-frame with a ridge, that is the third, because the choice
+/// between them would depend on the order of the list; the first if all do.
+std::size_t flattest(const std::vector<double>& rises) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < rises.size(); ++k)
+    if (rises[k] > rises[best] + kSteeper) best = k;
+  if (rises.size() != 3) return best;
+  std::vector<std::size_t> lower;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (rises[k] < rises[best] - kSteeper) lower.push_back(k);
+  return lower.size() == 1 ? lower.front() : best;
+}
+
 /// Two ends in space, and where their axes meet.
 struct Corner {
   const Member& a;
@@ -141,8 +155,8 @@ class Search {
     if (cut == nullptr) cut = cut_of(pair.second, a);
     if (cut != nullptr) return is_open(*cut);
     const auto at = corner_of(joints_.spec, pair);
-    return edge_outside(at.a, at.point, (at.u - at.v).normalized(), at.u + at.v, chords_of(pair)) >
-           kOutside;
+    return edge_outside(at.a, at.a.into(end_of(pair.first)), at.point, (at.u - at.v).normalized(),
+                        at.u + at.v, chords_of(pair)) > kOutside;
   }
 
   /// Returns the pairs of the ends at one corner that are mitred: of the corner of a box the one
@@ -162,10 +176,9 @@ class Search {
         const auto at = corner_of(joints_.spec, pair);
         return std::abs(at.u.cross(at.v).normalized().z());
       };
-      auto best = all.front();
-      for (const auto& pair : all)
-        if (rise(pair) > rise(best) + kSteeper) best = pair;
-      return {best};
+      std::vector<double> rises;
+      for (const auto& pair : all) rises.push_back(rise(pair));
+      return {all[flattest(rises)]};
     }
     if (each) return {all.begin(), all.end()};
     return {all.front()};
@@ -259,10 +272,8 @@ std::size_t flattest_post(const NodeSpec& spec, const std::vector<std::size_t>& 
     };
     return std::abs(into(1).cross(into(2)).normalized().z());
   };
-  std::size_t post = 2;
-  for (const std::size_t k : {1, 0})
-    if (rise(k) > rise(post) + kSteeper) post = k;
-  return post;
+  // From the last, which the two earlier ones cut if all are alike.
+  return 2 - flattest({rise(2), rise(1), rise(0)});
 }
 
 }  // namespace

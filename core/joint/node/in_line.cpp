@@ -155,6 +155,15 @@ std::size_t nearer_end(const NodeSpec& spec, const Touch& touch) {
                                     : End::finish);
 }
 
+/// Returns true if a chord that carries the branch, although it is narrower, holds the work point
+/// of its end inside: the chord has no end there that the branch could cut.
+bool stops_end(const Member& chord, const Member& branch, End end) {
+  constexpr double kInside =
+      0.03;  // of the chord's reach: drawn at the surface, it only touches it
+  return chord.priority == branch.priority && carries(chord, branch) &&
+         distance_from(chord, branch.at(end)) < -kInside * chord.reach();
+}
+
 /// Returns pairs of members of which the first continues where the second ends, and the second does
 /// not continue there too.
 std::set<Applied::Pair> going_on(const NodeSpec& spec, const Joined& joined, const Lines& lines,
@@ -165,9 +174,10 @@ std::set<Applied::Pair> going_on(const NodeSpec& spec, const Joined& joined, con
       const auto b = touch.end / 2, a = touch.other;
       const auto& chord = spec.members[a];
       const auto& branch = spec.members[b];
-      if (!may_cut(chord, branch) || lines.line[a] == lines.line[b]) continue;
-      const bool passes = runs_past(chord, branch, touch.near.inside, within);
-      const bool continues = lines.mates[nearer_end(spec, touch)] && !lines.mates[touch.end];
+      if (lines.line[a] == lines.line[b]) continue;
+      const bool passes = runs_past(chord, branch, end_of(touch.end), touch.near.inside, within);
+      const bool continues =
+          may_cut(chord, branch) && lines.mates[nearer_end(spec, touch)] && !lines.mates[touch.end];
       if (passes || continues) out.insert({a, b});
     }
   for (auto it = out.begin(); it != out.end();)
@@ -187,9 +197,11 @@ bool may_cut(const Member& chord, const Member& branch) {
          (chord.half_size() >= branch.half_size() || covers(chord, branch));
 }
 
-bool runs_past(const Member& chord, const Member& branch, double inside, double within) {
-  return may_cut(chord, branch) && (goes_on(chord, branch, inside) ||
-                                    (alike(chord, branch) && inside > within + chord.reach()));
+bool runs_past(const Member& chord, const Member& branch, End end, double inside, double within) {
+  if (!may_cut(chord, branch))
+    return stops_end(chord, branch, end) && goes_on(chord, branch, inside);
+  return goes_on(chord, branch, inside) ||
+         (alike(chord, branch) && inside > within + chord.reach());
 }
 
 bool Lines::goes_before(const NodeSpec& spec, std::size_t a, std::size_t b) const {
@@ -245,18 +257,23 @@ bool stops(const NodeSpec& spec, std::size_t end, const std::vector<std::size_t>
   const Vector3d x = m.section ? height_of(m) : m.into(at).unitOrthogonal();
   const auto frame = member_frame(m.at(at), m.at(at) + m.into(at), x);
   if (!frame) return false;
-  std::vector<Cutter> cutters;
-  std::vector<PreparedCutter> prepared;
-  for (const auto c : members) {
-    const auto placed = cutter_of(spec.members[c], *frame);
-    if (!placed) continue;
-    if (const auto one = prepare(*placed)) {
-      cutters.push_back(*placed);
-      prepared.push_back(*one);
+  const auto stopped_by = [&](bool wide) {
+    std::vector<Cutter> cutters;
+    std::vector<PreparedCutter> prepared;
+    for (const auto c : members) {
+      const auto& chord = spec.members[c];
+      const auto placed = cutter_of(wide ? as_met(chord, m) : chord, *frame);
+      if (!placed) continue;
+      if (const auto one = prepare(*placed)) {
+        cutters.push_back(*placed);
+        prepared.push_back(*one);
+      }
     }
-  }
-  if (cutters.empty()) return false;
-  return m.section ? closed(cutters, m.section->bore()) : closed(prepared, m.outer_radius - m.wall);
+    if (cutters.empty()) return false;
+    return m.section ? closed(cutters, m.section->bore())
+                     : closed(prepared, m.outer_radius - m.wall);
+  };
+  return stopped_by(false) || stopped_by(true);
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ struct Cutting {
   Touch touch;
   const detail::Mitre* mitre = nullptr;
   bool flat = false;  // by its faces, because another end shares its corner
+  bool wide = false;  // by a face that goes on to both sides, because the end is wider
 };
 
 /// Returns the error if two members that pass this end are equal in rank and equally near, so that
@@ -48,7 +49,7 @@ Result<void> check_ambiguous(const NodeSpec& spec, const std::vector<Cutting>& a
                              double within) {
   const Touch* nearest = nullptr;
   const Touch* second = nullptr;
-  for (const auto& [touch, mitre, flat] : above) {
+  for (const auto& [touch, mitre, flat, wide] : above) {
     const auto& other = spec.members[touch.other];
     const bool passing = touch.near.inside > within + other.reach();
     if (!passing || !alike(other, spec.members[above.front().touch.other])) continue;
@@ -190,8 +191,9 @@ Result<std::vector<CutBy>> place_cutters(const NodeSpec& spec, const Applied& ap
                                          const std::vector<Cutting>& cutters) {
   std::vector<CutBy> out;
   for (const auto& one : cutters) {
-    const auto& [touch, mitre, flat] = one;
-    const auto& other = spec.members[touch.other];
+    const auto& [touch, mitre, flat, wide] = one;
+    const auto& own = spec.members[touch.other];
+    const auto other = wide ? detail::as_met(own, spec.members[member]) : own;
     CutBy cut{.member = touch.other,
               .placement = {},
               .stated = joint_with(spec, applied, member, touch.other),
@@ -254,6 +256,20 @@ std::optional<Warning> no_cutter(const NodeSpec& spec, const MemberEnd& end, con
                      " ends " + brief(seen.nearest) + " mm before it would cut it"};
 }
 
+/// Lets the cutters of an open end that are narrower than it cut it by their whole faces. Returns
+/// false if there are none that did not yet.
+bool widen(const NodeSpec& spec, std::size_t member, std::vector<Cutting>& cutters) {
+  bool any = false;
+  for (auto& one : cutters) {
+    const auto& chord = spec.members[one.touch.other];
+    if (one.mitre != nullptr || one.wide || !chord.section ||
+        *detail::as_met(chord, spec.members[member]).section == *chord.section)
+      continue;
+    one.wide = any = true;
+  }
+  return any;
+}
+
 /// Drops the first cutter that does not cut, and repeats without it until all others cut.
 Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Around& around,
                             std::vector<Warning>& warnings) {
@@ -276,6 +292,7 @@ Result<MemberEnd> solve_end(const NodeSpec& spec, std::size_t index, const Aroun
       cutters.erase(cutters.begin() + static_cast<std::ptrdiff_t>(*none));
       continue;
     }
+    if (out.open && widen(spec, out.member, cutters)) continue;
     for (auto& one : left_out)
       if (one.code != WarningCode::free_end || cutters.empty()) {
         out.free = out.free || one.code == WarningCode::free_end;

@@ -60,8 +60,7 @@ struct NodeSpec {
   std::size_t found = 0;  // number of entries at the end of `joints` that were detected
 };
 
-/// Returns the stated joint of two members; nullptr if neither states one. If two statements
-/// differ, returns the first.
+/// Returns the stated joint of two members, the first of two that differ; nullptr if none.
 [[nodiscard]] const Joint* stated_joint(const NodeSpec& spec, std::size_t a, std::size_t b);
 
 /// One member that cuts an end. Lengths in mm.
@@ -78,6 +77,7 @@ struct CutBy {
   double missing = 0.0;       // how far the cut follows it beyond its metal, mm; if another member
                               // continues it, the step between the two
   std::optional<std::size_t> instead = {};  // that member, if its surface is lower there
+  bool past_mitre = false;                  // true if it is missing beyond a mitre of the member
 };
 
 /// One end of one member, and its cut.

@@ -156,6 +156,7 @@ class EndInspection {
     if (off.by <= cut.missing) return;
     cut.missing = off.by;
     cut.instead = off.instead;
+    cut.past_mitre = off.past_mitre;
   }
   [[nodiscard]] Short missing(std::size_t cutter, const Generator& line, const Hit& at) const {
     const auto& cut = end_.cut_by[cutter];
@@ -167,8 +168,8 @@ class EndInspection {
     const auto end = end_index(cut.member, along(cut, at.axial) < 0.0 ? End::start : End::finish);
     const bool has_planes = std::ranges::any_of(
         planes_[cutter], [&](const auto* plane) { return plane->first.first == end; });
-    if (const double off = beyond_planes(cutter, place); off > kCutAway || has_planes)
-      return {.by = off > kCutAway ? off : 0.0};
+    if (const double off = beyond_planes(cutter, place); off > 0.0 || has_planes)
+      return {.by = off, .past_mitre = off > 0.0};
     if (!is_beyond) return {};
     return short_of(spec_, lines_, end, place);
   }
@@ -181,7 +182,8 @@ class EndInspection {
     return out;
   }
   /// Returns how far a point of a partner's extended surface lies beyond the planes at which its
-  /// ends are mitred, along it; 0 where the other member of that plane goes on flush.
+  /// ends are mitred: along it, or to the other member of that plane if that is nearer; 0 where
+  /// that one goes on flush.
   [[nodiscard]] double beyond_planes(std::size_t cutter, const Vector3d& point) const {
     double out = 0.0;
     for (const auto* plane : planes_[cutter]) {
@@ -190,7 +192,8 @@ class EndInspection {
       const Vector3d from = m.at(end_of(end)) + plane->second.point;
       const double off = (from - point).dot(plane->second.normal) /
                          plane->second.normal.dot(m.into(end_of(end)).normalized());
-      if (off > out && distance_from(surface_of(cutter, other), point) > kFlushFaces) out = off;
+      const double aside = distance_from(surface_of(cutter, other), point);
+      if (off > kCutAway && aside > kFlushFaces) out = std::max(out, std::min(off, aside));
     }
     return out;
   }
@@ -310,9 +313,11 @@ std::vector<bool> cuts_anywhere(const Member& member, const MemberEnd& end) {
   std::vector<bool> out(end.cut_by.size(), end.cut_by.size() < 2);
   if (end.cut_by.size() < 2) return out;
   const auto cutters = detail::prepared_seats(end);
+  // A little inside, because of a face flush with that of a cutter, rounding decides which it
+  // meets.
   for (const auto& surface : detail::surfaces_of(member))
-    for (const auto& line :
-         surface.outline ? detail::lines_on(*surface.outline) : detail::lines_on(surface.reach)) {
+    for (const auto& line : surface.smaller ? detail::lines_on(*surface.smaller)
+                                            : detail::lines_on(surface.reach - kSlightOverhang)) {
       const auto top = highest(cutters, line);
       if (!top) continue;
       out[top->cutter] = true;

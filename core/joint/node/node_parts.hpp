@@ -16,8 +16,7 @@
 /// For `solve` only.
 namespace tubecut::joint::detail {
 
-/// Compares by priority, size and position in the list: a total order, so two members never cut
-/// each other.
+/// Compares by priority, size and position in the list: a total order.
 [[nodiscard]] bool goes_before(const NodeSpec& spec, std::size_t a, std::size_t b);
 /// Returns the member's name, or "member 3".
 [[nodiscard]] std::string called(const NodeSpec& spec, std::size_t member);
@@ -53,12 +52,11 @@ struct Applied {
   std::set<Pair> found;          // found joints, which are not stated
 };
 
-/// Returns true if a chord that continues where the branch ends cuts it: it has the same priority,
-/// and is at least as large, or covers the branch.
+/// Returns true if a chord that continues where the branch ends cuts it by priority and size.
 [[nodiscard]] bool may_cut(const Member& chord, const Member& branch);
-/// Returns true if it does, and continues: its nearer end lies `inside` mm beyond the branch's
-/// axis. `within`: the joining distance, mm.
-[[nodiscard]] bool runs_past(const Member& chord, const Member& branch, double inside,
+/// Returns true if it does, or carries an end that lies inside it, and continues: its nearer end
+/// lies `inside` mm beyond the branch's axis. `within`: the joining distance, mm.
+[[nodiscard]] bool runs_past(const Member& chord, const Member& branch, End end, double inside,
                              double within);
 
 /// The end that continues another, and the angle out of line; rad.
@@ -91,7 +89,8 @@ struct Lines {
 /// continues it there; `by` is the step down to that one.
 struct Short {
   double by = 0.0;  // mm
-  std::optional<std::size_t> instead;
+  std::optional<std::size_t> instead = {};
+  bool past_mitre = false;  // beyond a plane at which the tube is mitred
 };
 [[nodiscard]] Short short_of(const NodeSpec& spec, const Lines& lines, std::size_t end,
                              const Eigen::Vector3d& at);
@@ -107,18 +106,18 @@ struct Short {
 /// Errors  joint_contradicts, no_contact, out_of_range (members/i/joints/j).
 [[nodiscard]] Result<Applied> apply_joints(const NodeSpec& spec, const Lines& lines,
                                            Joined& joined);
-/// Separates members of which one is stated to pass through the other, without further checks.
+/// Separates the members of which one is stated to pass through the other.
 void part_passing(const NodeSpec& spec, Joined& joined);
 /// Mitres the ends in line without a stated joint and without anything between them.
 void join_lines(const NodeSpec& spec, const Lines& lines, Joined& joined, Applied& out);
 
-/// Returns the distances from either end along its own axis to where two mitred axes meet, mm. The
-/// plane between them passes midway between the two points.
+/// Returns the distances from either end along its axis to where two mitred axes meet, mm; midway
+/// between both points is their plane.
 [[nodiscard]] std::pair<double, double> meeting(const NodeSpec& spec, std::size_t p, std::size_t q);
 /// Mitres two ends of two members without a joint, which join nowhere else.
 void mitre_ends(const NodeSpec& spec, std::size_t p, std::size_t q, Joined& joined, Applied& out);
 
-/// Returns true if the joint of two members is set on, stated or not.
+/// Returns true if the joint of two members is set on.
 [[nodiscard]] bool is_set_on(const Applied& applied, std::size_t member, std::size_t other);
 
 /// Who joins whom, and how.
@@ -132,10 +131,9 @@ struct Joints {
 /// The surface on which an end lies: as `partner_of`, at the joint's seat.
 using Seat = std::variant<TubeCutter, PlaneCutter, RectangularTubeCutter>;
 [[nodiscard]] Seat seat_of(const CutBy& cut);
-/// Returns the prepared cutters of an end.
 [[nodiscard]] std::vector<PreparedCutter> prepared_seats(const MemberEnd& end);
 
-/// Returns true if every generator of radius rho, or through an outline, meets some cutter.
+/// Returns true if every generator of radius rho, or through an outline, meets some.
 [[nodiscard]] bool closed(std::span<const PreparedCutter> cutters, double rho);
 [[nodiscard]] bool closed(std::span<const Cutter> cutters, const section::Curve& outline);
 

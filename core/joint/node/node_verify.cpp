@@ -173,9 +173,9 @@ double wrong_cuts(const NodeSpec& spec, const Nodes& nodes) {
       if (cut.plane) continue;
       const auto& by = spec.members[cut.member];
       const auto& of = spec.members[end.member];
-      const bool lower =
-          by.priority > of.priority || (by.priority == of.priority &&
-                                        by.half_size() < of.half_size() && !detail::covers(by, of));
+      const bool lower = by.priority > of.priority ||
+                         (by.priority == of.priority && by.half_size() < of.half_size() &&
+                          !detail::carries(by, of));
       if (lower || cuts.contains({end.member, cut.member})) wrong += 1.0;
       cuts.insert({cut.member, end.member});
     }

@@ -33,6 +33,15 @@ double mitre_step(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut) 
          cut.eccentricity;
 }
 
+/// Returns how much of an end lies beside the face that it is flat on, because it is wider; mm.
+double flat_overhang(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut) {
+  const auto& chord = spec.members[cut.member];
+  const auto& own = spec.members[end.member];
+  const bool wide =
+      cut.box && (cut.box->height > chord.section->height || cut.box->width > chord.section->width);
+  return wide ? overhang(chord, own) : 0.0;
+}
+
 std::string ghost(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut,
                   const Joined& joined) {
   const auto other = called(spec, cut.member);
@@ -43,6 +52,9 @@ std::string ghost(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut,
   if (cut.instead)
     return "cut by " + other + " beyond that member's end, where " + called(spec, *cut.instead) +
            ", which continues it, lies up to " + far + " lower";
+  if (cut.past_mitre)
+    return "cut by " + other + " beyond the plane at which that member is mitred, up to " + far +
+           " beside the metal of both";
   const auto beyond = "cut by " + other + " up to " + far + " beyond that member's end";
   const auto ends_here = [&](std::size_t at) {
     return std::ranges::count(joined[at], end.member, &Touch::other) > 0;
@@ -84,8 +96,15 @@ void warn(const Joints& joints, const MemberEnd& end, const std::optional<Touch>
                      .detail = "mitred with " + called(spec, cut.member) +
                                ", because neither end can cut the other at this corner"});
   for (const auto& cut : end.cut_by)
-    if (const auto& chord = spec.members[cut.member];
-        cut.box && cut.box->corner != chord.section->corner)
+    if (const double over = flat_overhang(spec, end, cut); over > 0.0)
+      out.push_back({.code = WarningCode::wall_overhangs,
+                     .member = at,
+                     .detail = "flat on the face of " + called(spec, cut.member) +
+                               ", beside which up to " + brief(over) + " mm of it lie"});
+  for (const auto& cut : end.cut_by)
+    if (const auto& chord = spec.members[cut.member]; cut.box &&
+                                                      cut.box->corner != chord.section->corner &&
+                                                      !(flat_overhang(spec, end, cut) > 0.0))
       out.push_back({.code = WarningCode::corner_shared,
                      .member = at,
                      .detail = "flat on the face of " + called(spec, cut.member) +

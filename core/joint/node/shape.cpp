@@ -142,22 +142,95 @@ bool covers(const Member& chord, const Member& branch) {
   return apart + support(branch, n) <= support(chord, n) + kSlightOverhang;
 }
 
+namespace {
+
+/// Both axes: a unit vector across them, and their distance along it.
+struct Across {
+  Vector3d normal;
+  double apart;
+};
+std::optional<Across> across_both(const Member& chord, const Member& branch) {
+  const Vector3d across = axis_of(branch).cross(axis_of(chord));
+  const double sine = across.norm();
+  if (!(sine > 2.0 * kParallel)) return std::nullopt;
+  const Vector3d n = across / sine;
+  return Across{n, std::abs((branch.start - chord.start).dot(n))};
+}
+
+/// Returns how far the bore reaches from the axis in a direction.
+double bore_support(const Member& member, const Vector3d& direction) {
+  auto bore = member;
+  bore.outer_radius -= member.wall;
+  if (auto& s = bore.section) {
+    s->height -= 2.0 * s->wall;
+    s->width -= 2.0 * s->wall;
+    s->corner = s->inner_corner;
+  }
+  return support(bore, direction);
+}
+
+/// Returns true if the chord's width stops the bore.
+bool stops_bore(const Member& chord, const Member& branch, const Across& at) {
+  return at.apart + bore_support(branch, at.normal) <= support(chord, at.normal);
+}
+/// Returns true if the branch's axis meets a face that is square to the plane of both.
+bool meets_face(const Member& chord, const Across& at) {
+  return chord.section && is_square_to(chord, at.normal) &&
+         at.apart < support(chord, at.normal) - chord.section->corner;
+}
+
+}  // namespace
+
+double overhang(const Member& chord, const Member& branch) {
+  const auto at = across_both(chord, branch);
+  if (!at) return 0.0;
+  return std::max(0.0, at->apart + support(branch, at->normal) - support(chord, at->normal));
+}
+
+Member as_met(const Member& chord, const Member& branch) {
+  auto out = chord;
+  const auto at = across_both(chord, branch);
+  if (!at || stops_bore(chord, branch, *at) || !meets_face(chord, *at)) return out;
+  // Of the sizes only, so that equal branches get equal faces.
+  const double wide = 2.0 * (chord.reach() + 2.0 * branch.reach());
+  const bool along_height = std::abs(height_of(chord).dot(at->normal)) > 0.5;
+  (along_height ? out.section->height : out.section->width) = wide;
+  out.section->corner = kSharpCorner;
+  return out;
+}
+
+bool carries(const Member& chord, const Member& branch) {
+  const auto at = across_both(chord, branch);
+  return at && (stops_bore(chord, branch, *at) || meets_face(chord, *at));
+}
+
 bool goes_on(const Member& chord, const Member& branch, double inside) {
-  constexpr double kFarSide = 0.5;  // mm: an end that is drawn flush with the branch goes on
+  constexpr double kFarSide = 0.02;  // of its reach: an end drawn flush with the branch goes on
   const Vector3d u = axis_of(branch), across = u.cross(axis_of(chord));
   const double sine = across.norm();
   if (!(sine > 2.0 * kParallel)) return false;
   const double far = support(branch, u.cross(across / sine)) / sine;
-  return inside >= far - kFarSide;
+  return inside >= far - kFarSide * branch.reach();
 }
 
-double edge_outside(const Member& member, const Vector3d& point, const Vector3d& normal,
-                    const Vector3d& towards, const std::vector<const Member*>& others) {
+namespace {
+
+/// Returns the least signed distance of a segment from the endless surface.
+double least_distance(const Member& member, const Vector3d& a, const Vector3d& b) {
+  if (member.section) return box_of(member).solid().least_distance(a, b);
+  return TubeSolid{member.start, axis_of(member), member.outer_radius}.least_distance(a, b);
+}
+
+}  // namespace
+
+double edge_outside(const Member& member, const Vector3d& into, const Vector3d& point,
+                    const Vector3d& normal, const Vector3d& towards,
+                    const std::vector<const Member*>& others) {
   double worst = -1e300;
   for (const auto& p : edge(member, point, normal)) {
     if (!((p - point).dot(towards) > 0.0)) continue;
     double least = 1e300;
-    for (const auto* other : others) least = std::min(least, distance_from(*other, p));
+    for (const auto* other : others) least = std::min(least, least_distance(*other, p, p + into));
     worst = std::max(worst, least);
   }
   return worst;

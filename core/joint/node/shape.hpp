@@ -23,6 +23,9 @@ void straighten_as_drawn(RectangularTubeCutter& box);
 /// For `solve` and `verify`: members in space, whether round or not.
 namespace tubecut::joint::detail {
 
+/// The corner radius of a chord whose faces count as meeting in an edge, mm.
+inline constexpr double kSharpCorner = 0.01;
+
 /// Sections that are turned against each other about their axis by at most this count as one: at
 /// 150 mm from the axis their surfaces are 0.15 mm from each other. rad.
 inline constexpr double kSameTurn = 1e-3;
@@ -53,6 +56,15 @@ inline constexpr double kSameTurn = 1e-3;
 /// Returns true if a branch lies within the chord's width across both axes, up to kSlightOverhang,
 /// so that the chord's wall stops all of it. Parallel members never do.
 [[nodiscard]] bool covers(const Member& chord, const Member& branch);
+/// Returns how far a branch reaches beyond the chord's width across both axes, mm; 0 if it does
+/// not.
+[[nodiscard]] double overhang(const Member& chord, const Member& branch);
+/// Returns the chord as it cuts an end of the branch. A face that a branch is square to, and whose
+/// width the bore exceeds, counts as going on to both sides without a rounding, so that the end is
+/// flat on it; otherwise nothing would stop the wall that overhangs.
+[[nodiscard]] Member as_met(const Member& chord, const Member& branch);
+/// Returns true if a chord stops the bore of a branch all round, by its width or by such a face.
+[[nodiscard]] bool carries(const Member& chord, const Member& branch);
 /// Returns true if a chord whose nearer end lies `inside` mm beyond the axis of a branch that ends
 /// on it goes on at least to the branch's far side.
 [[nodiscard]] bool goes_on(const Member& chord, const Member& branch, double inside);
@@ -64,10 +76,13 @@ inline constexpr double kSameTurn = 1e-3;
 [[nodiscard]] double edge_step(const Member& a, const Member& b, const Eigen::Vector3d& point,
                                const Eigen::Vector3d& normal);
 /// Returns how far the edge along which a plane through `point` cuts the surface lies outside of
-/// all these members on the side of `towards`; mm, negative if it lies inside of one everywhere.
+/// all these members on the side of `towards`; mm, negative if it lies inside of one everywhere. A
+/// place from which the member, along `into`, still meets one of them is cut off, and counts as
+/// lying as near as that.
 /// Accuracy  from 128 places of the edge.
-[[nodiscard]] double edge_outside(const Member& member, const Eigen::Vector3d& point,
-                                  const Eigen::Vector3d& normal, const Eigen::Vector3d& towards,
+[[nodiscard]] double edge_outside(const Member& member, const Eigen::Vector3d& into,
+                                  const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
+                                  const Eigen::Vector3d& towards,
                                   const std::vector<const Member*>& others);
 
 }  // namespace tubecut::joint::detail

@@ -8,9 +8,6 @@
 
 namespace tubecut::joint::detail {
 
-/// The corner radius of a chord whose faces count as meeting in an edge, mm.
-inline constexpr double kSharpCorner = 0.01;
-
 /// One end of a member.
 struct EndOf {
   const Member& member;
