@@ -400,6 +400,33 @@ TEST(EverydayFrames, ATableTurnedInPlanHasTheSameJointsAndParts) {
     }
 }
 
+/// A post under the node of two rails in line and a third: the third ends at their side, so it does
+/// not cut the post below them, although its lower face is flush with theirs.
+TEST(EverydayFrames, APostUnderThreeRailsEndsOnThoseThatPassOverIt) {
+  for (const double turned : {0.0, 33.3, 77.7, 123.4, 199.9, 245.6}) {
+    const auto at = [&](double x, double y, double z) {
+      const double c = std::cos(turned * kRadPerDeg), s = std::sin(turned * kRadPerDeg);
+      const auto rounded = [](double v) { return std::to_string(std::round(v * 1e3) / 1e3); };
+      return "[" + rounded(c * x - s * y) + ", " + rounded(s * x + c * y) + ", " + rounded(z) + "]";
+    };
+    const auto up = "[" + std::to_string(std::cos(turned * kRadPerDeg)) + ", " +
+                    std::to_string(std::sin(turned * kRadPerDeg)) + ", 0]";
+    const auto rail = [&](const std::string& id, const std::string& from, const std::string& to) {
+      return square(id, from, to, "SHS 60x60x3 EN 10219", "[0, 0, 1]", 1);
+    };
+    const auto members =
+        square("post", at(900, 0, 0), at(900, 0, 1500), "SHS 30x30x3 EN 10219", up, 1) + "," +
+        rail("left", at(0, 0, 1500), at(900, 0, 1500)) + "," +
+        rail("right", at(900, 0, 1500), at(1800, 0, 1500)) + "," +
+        rail("across", at(900, 0, 1500), at(900, 400, 1500));
+    const auto answer =
+        post(kFrames, with(frame(members, ""), "connect", parsed(R"({"within_mm": 5})")));
+    ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+    for (const auto& joint : *testing::at(answer.body, "result/joints").as<Json::Array>())
+      EXPECT_FALSE(text(joint, "branch") == "post" && text(joint, "chord") == "across") << turned;
+  }
+}
+
 /// A rail of 48.3 between legs of 40, which is wider than they are: it ends flat on their faces, so
 /// that it is as long as the distance of the faces, whichever way it is drawn, listed and turned.
 TEST(EverydayFrames, ARailWiderThanItsLegsEndsFlatOnTheirFaces) {

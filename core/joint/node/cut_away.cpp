@@ -17,11 +17,12 @@ constexpr double kClearlyInside = 0.5;  // mm: a line that only touches a member
 constexpr double kFirstStep = 0.25;     // mm, of a doubling search
 constexpr int kBisections = 40;
 
-/// Returns true if the point is next to the member between its ends.
+/// Returns true if the point is next to the member between its ends, or by rounding beyond one: of
+/// two members in line, a point where they meet is next to both.
 bool between_ends(const Member& m, const Vector3d& point) {
   const Vector3d along = m.finish - m.start;
-  const double share = (point - m.start).dot(along) / along.squaredNorm();
-  return share >= 0.0 && share <= 1.0;
+  const double length = along.norm(), at = (point - m.start).dot(along) / length;
+  return at >= -kStillInside && at <= length + kStillInside;
 }
 
 /// Returns a way, >= 0, along unit `into` from a point to a place inside the member's endless
