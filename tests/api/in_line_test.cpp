@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "tests/support/lines.hpp"
 
@@ -296,6 +300,51 @@ TEST(InLine, AMemberThatEndsBeforeTheCutDoesNotCut) {
   EXPECT_GT(absent, 20);
   EXPECT_GT(partly, 20);
   EXPECT_GT(there, 10);
+}
+
+/// A rail that ends at a round post between two rails in line: those have one surface, which has
+/// metal on both sides of the post, so it ends on the post and on them, whichever of the two
+/// rounding puts on top, however the model is turned and each rail is drawn.
+TEST(InLine, ARailBetweenTwoInLineAtAPostEndsOnAllThree) {
+  for (const auto& [post_size, rail_size] :
+       {std::pair{"CHS 48.3x3.2", "CHS 42.4x3.2"}, std::pair{"CHS 48.3x3.2", "CHS 48.3x3.2"},
+        std::pair{"CHS 60.3x3.2", "CHS 48.3x3.2"}})
+    for (const double turned : {0.0, 20.0, 57.08, 181.96, 234.3})
+      for (const bool back : {false, true}) {
+        const double c = std::cos(turned * 0.017453292519943295);
+        const double s = std::sin(turned * 0.017453292519943295);
+        const auto at = [&](double x, double y, double z) {
+          char out[96];
+          std::snprintf(out, sizeof out, "[%.3f, %.3f, %.3f]", c * x - s * y, s * x + c * y, z);
+          return std::string(out);
+        };
+        const auto tube = [](const std::string& id, const std::string& from, const std::string& to,
+                             const std::string& size) {
+          return R"({"id": ")" + id + R"(", "start_mm": )" + from + R"(, "end_mm": )" + to +
+                 R"(, "size": ")" + size + "\"}";
+        };
+        const auto rail = [&](const std::string& id, const std::string& from,
+                              const std::string& to) {
+          return back ? tube(id, to, from, rail_size) : tube(id, from, to, rail_size);
+        };
+        const auto asked = R"({"preset": "tube_laser", "kerf_mm": 0.2,
+                               "connect": {"within_mm": 5}, "members": [)" +
+                           tube("post", at(900, 0, 0), at(900, 0, 1500), post_size) + "," +
+                           rail("left", at(0, 0, 700), at(900, 0, 700)) + "," +
+                           rail("right", at(900, 0, 700), at(1800, 0, 700)) + "," +
+                           rail("across", at(900, 0, 700), at(900, 400, 700)) + "]}";
+        const auto answer = post("/v1/frames", *api::parse(asked));
+        ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 600);
+        std::set<std::string> joints;
+        for (const auto& one : *testing::at(answer.body, "result/joints").as<api::Json::Array>())
+          joints.insert(text(one, "branch") + " " + text(one, "kind") + " " + text(one, "chord"));
+        EXPECT_EQ(joints, (std::set<std::string>{"left set_on post", "right set_on post",
+                                                 "across set_on post", "across set_on left",
+                                                 "across set_on right"}))
+            << post_size << " " << rail_size << " " << turned << back;
+        for (const auto& w : *testing::at(answer.body, "warnings").as<api::Json::Array>())
+          EXPECT_NE(text(w, "code"), "members_overlap") << turned;
+      }
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ class EndInspection {
       if (end_.cut_by[top->cutter].plane || !at)
         see_plane(top->cutter, line, top->z);
       else
-        see(top->cutter, line, *at);
+        see(cutters, top->cutter, line, *at);
     }
   }
   /// Finds the partners that run past the member or only touch its surfaces.
@@ -145,13 +145,27 @@ class EndInspection {
                                                                       line.radius * line.sin_phi,
                                                                       z);
   }
-  void see(std::size_t cutter, const Generator& line, const Hit& at) {
+  /// Returns true if the metal of another partner is flush with this place: two partners in line
+  /// have one surface, and rounding decides which of them is the highest there.
+  [[nodiscard]] bool held_by_another(std::span<const PreparedCutter> cutters, std::size_t cutter,
+                                     const Generator& line, double z) const {
+    for (std::size_t i = 0; i < cutters.size(); ++i) {
+      if (i == cutter || end_.cut_by[i].plane) continue;
+      const auto at = hit(cutters[i], line);
+      if (at && std::abs(at->z - z) <= kFlushFaces && missing(i, line, *at).by <= kStep)
+        return true;
+    }
+    return false;
+  }
+  void see(std::span<const PreparedCutter> cutters, std::size_t cutter, const Generator& line,
+           const Hit& at) {
     auto& cut = end_.cut_by[cutter];
     auto& seen = seen_[cutter];
     const auto off = missing(cutter, line, at);
     if (off.by <= kStep || off.instead) seen.there = true;
     if (off.by <= kStep) return;
     seen.nearest = std::min(seen.nearest, off.by);
+    if (held_by_another(cutters, cutter, line, at.z)) return;
     cut.ghost = true;
     if (off.by <= cut.missing) return;
     cut.missing = off.by;
