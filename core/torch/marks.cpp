@@ -50,6 +50,7 @@ class MarkStrokes {
     // Letters turn sharply; no curve goes through their points.
     if (sharp) out.path.corner = std::vector<bool>(points.size(), true);
     out.on_flat = is_on_flat(out.path);
+    if (out.on_flat) out.path.still = motion::normal_of_first(out.path);
     all_.push_back(std::move(out));
   }
 

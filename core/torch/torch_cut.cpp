@@ -98,6 +98,21 @@ void along_slit(const cutout::Mould& mould, const cutout::Instance& one, motion:
   if (!leans) path.a.clear();
 }
 
+/// Keeps the torch square to the flat of a cut-out of a section; of a prism over its corners it
+/// keeps the direction of the walls, because they are parallel.
+void keep_direction(const cutout::Laying& laying, const cutout::Instance& one, TorchCut& cut) {
+  if (cut.on_flat) {
+    cut.path.still = motion::normal_of_first(cut.path);
+  } else if (laying.over() != nullptr && laying.lay() == cutout::Lay::prism) {
+    const double anchor = one.phi + laying.phase(0.0);
+    cut.path.still = motion::normal_at(cut.path.section->outer(), cut.path.outer_radius * anchor) +
+                     laying.lean(0.0);
+    cut.still_lean = 0.0;
+    for (const double a : cut.path.a) cut.still_lean = std::max(*cut.still_lean, std::abs(a));
+    cut.path.a.clear();
+  }
+}
+
 /// `tube`: the path without points.
 TorchCut cutout_cut(const cutout::Layout& layout, std::size_t index, double kerf,
                     motion::CutPath tube) {
@@ -108,11 +123,6 @@ TorchCut cutout_cut(const cutout::Layout& layout, std::size_t index, double kerf
                .path = std::move(tube),
                .kerf = kerf,
                .on_flat = mould.laying.lay() == cutout::Lay::flat};
-  if (mould.laying.over() != nullptr && mould.laying.lay() == cutout::Lay::prism) {
-    out.still = {.phi = one.phi + mould.laying.phase(0.0), .turn = mould.laying.lean(0.0)};
-    for (const double a : rows.a)
-      out.still->most_lean = std::max(out.still->most_lean, std::abs(a));
-  }
   out.path.scrap = motion::Scrap::inside;
   out.path.phi = rows.torch_phi;
   out.path.z = rows.torch_z;
@@ -123,8 +133,9 @@ TorchCut cutout_cut(const cutout::Layout& layout, std::size_t index, double kerf
   if (mould.slit) {
     out.open = true;
     along_slit(mould, one, out.path);
-    return out;
   }
+  keep_direction(mould.laying, one, out);
+  if (mould.slit) return out;
   stand_still(out.path);
   const double turn = mould.laying.turn(mould.centre.y(), mould.laying.outer());
   out.centre = {one.phi + mould.laying.phase(turn), one.z + mould.centre.x()};

@@ -28,14 +28,10 @@ struct TorchCut {
   bool of_land = false;  // true for the pass that cuts the land
   bool mark = false;
   bool open = false;     // a slit: from its pierce to its end, without leads
-  bool on_flat = false;  // a cut-out of a section: the torch keeps the normal of its face
-  /// Of a prism over corners: a tube that is still while the torch runs across cuts it as well.
-  struct Still {
-    double phi = 0.0;        // rad, of its anchor
-    double turn = 0.0;       // rad, from the normal there to the direction that points up
-    double most_lean = 0.0;  // rad, of the torch from the wall
-  };
-  std::optional<Still> still = {};
+  bool on_flat = false;  // of a section: within a flat, whose normal the torch keeps
+  /// Of a prism over corners, cut while the tube is still and the torch runs across: the largest
+  /// lean of the torch from the wall's normal, rad.
+  std::optional<double> still_lean = {};
   /// Of a cut-out: deep in its scrap, rad and mm on the outside.
   struct Deep {
     double phi = 0.0, z = 0.0;

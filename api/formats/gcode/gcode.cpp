@@ -28,9 +28,7 @@ constexpr double kSag = 0.019;    // mm, of one move; below 0.02 with the roundi
 constexpr double kMostSag = 0.1;  // mm; more is a fault of ours
 
 TorchPlace place(const motion::CutPoint& p, const torch::TorchCut& cut) {
-  TorchPlace out{p.phi, p.z, p.b, p.a, cut.on_flat};
-  if (cut.still) out.still = {.phi = cut.still->phi, .turn = cut.still->turn};
-  return out;
+  return {p.phi, p.z, p.b, p.a, cut.on_flat, cut.path.still};
 }
 
 torch::Setup setup_of(const FormatOptions& o) {

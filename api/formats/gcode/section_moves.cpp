@@ -27,8 +27,12 @@ TorchPlace between(const TorchReach& r, const TorchPlace& from, const TorchPlace
     return elementary::atan(mixed(elementary::tan(x), elementary::tan(y)));
   };
   if (from.on_flat)  // both edges are straight there if the tangents are linear
-    return {mixed(from.phi, to.phi), mixed(from.z, to.z), turned(from.b, to.b),
-            turned(from.a, to.a), true};
+    return {mixed(from.phi, to.phi),
+            mixed(from.z, to.z),
+            turned(from.b, to.b),
+            turned(from.a, to.a),
+            true,
+            from.still};
   const auto at = motion::between({r.outer_radius, r.inner_radius}, {from.phi, from.z, from.b},
                                   {to.phi, to.z, to.b}, share);
   return {.phi = at.phi, .z = at.z, .b = at.b, .still = from.still};
@@ -41,9 +45,7 @@ SectionTurn::SectionTurn(const section::Section& section)
 
 UprightPlace SectionTurn::at(const TorchPlace& place) const {
   const double s = radius_ * place.phi;
-  const double angle = place.still     ? up_.normal(radius_ * place.still->phi) + place.still->turn
-                       : place.on_flat ? up_.normal(s)
-                                       : up_.angle(s);
+  const double angle = place.still ? *place.still : up_.angle(s);
   const auto p = up_.point(s);
   const auto [sin, cos] = elementary::sincos(angle);
   return {angle, p.y() * cos - p.x() * sin, p.x() * cos + p.y() * sin};

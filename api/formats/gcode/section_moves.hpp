@@ -20,7 +20,6 @@ class SectionTurn {
  public:
   explicit SectionTurn(const section::Section& section);
 
-  /// On a flat: square to it, also where the torch begins to lean for the next corner.
   [[nodiscard]] UprightPlace at(const TorchPlace& place) const;
   [[nodiscard]] const section::Section& section() const { return section_; }
 

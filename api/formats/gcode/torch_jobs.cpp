@@ -108,9 +108,6 @@ TorchJob torch_job(const part::SectionPartSpec& spec, const part::SectionPart& p
                .onward = "from the start to the finish",
                .line = "the middle of face 1, girth 0,",
                .seen_from = "the start"};
-  // The tube is still, so that the torch keeps its direction.
-  for (auto& cut : out.cuts)
-    if (cut.still) cut.path.a.clear();
   tell_length(part.lengths, caption.options, out);
   add_marks(spec, part, caption.options, out);
   return out;

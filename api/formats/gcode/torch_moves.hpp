@@ -10,11 +10,8 @@ namespace tubecut::api {
 struct TorchPlace {
   double phi = 0.0, z = 0.0, b = 0.0, a = 0.0;
   bool on_flat = false;  // of a section: the torch keeps the normal of the flat
-  /// Or the tube is still, and the direction that is turned from the normal at phi points up.
-  struct Still {
-    double phi = 0.0, turn = 0.0;
-  };
-  std::optional<Still> still = {};
+  /// Of a section whose tube is still: the direction that points up, rad.
+  std::optional<double> still = {};
 };
 
 /// The wall that is cut, and how far the point that the linear axes carry is behind the tip.

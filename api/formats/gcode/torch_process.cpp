@@ -22,10 +22,10 @@ double thickest(const TorchJob& job) {
     for (std::size_t i = 0; !cut.mark && i < cut.path.b.size(); ++i) {
       ask();
       out = std::max(out, metal_in_beam(reach, {.b = cut.path.b[i],
-                                                .a = cut.still            ? cut.still->most_lean
+                                                .a = cut.still_lean       ? *cut.still_lean
                                                      : cut.path.a.empty() ? 0.0
                                                                           : cut.path.a[i],
-                                                .on_flat = cut.on_flat || cut.still}));
+                                                .on_flat = cut.on_flat || cut.still_lean}));
     }
   return out;
 }

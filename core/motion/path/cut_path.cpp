@@ -276,6 +276,7 @@ Result<Track> track(const CutPath& cut_path) {
   TRY(check_numbers(cut_path));
   Track t{rows(cut_path), cut_path.radius(), cut_path.closed, 0};
   t.section = cut_path.section;
+  t.still = cut_path.still;
   if (cut_path.surface == Surface::outer) t.wall = {cut_path.outer_radius, cut_path.inner_radius()};
   if (t.closed) TRY(close(t, cut_path.scrap));
   TRY(check_duplicates(t));
@@ -288,6 +289,12 @@ CutPath as_machine_counts(CutPath cut_path, BPositive b_positive) {
     for (double& b : cut_path.b) b = -b;
   }
   return cut_path;
+}
+
+CutPath turned_on(CutPath path, double turns) {
+  for (double& phi : path.phi) phi += turns;
+  if (path.still) *path.still += turns;
+  return path;
 }
 
 CutPath without_repeats(CutPath c) {

@@ -38,6 +38,9 @@ struct CutPath {
   /// Of a tube that is not round: its section. The points lie on its outside, phi counts its girth
   /// over `outer_radius`, and the other lengths are those of `around`.
   std::optional<section::Section> section = {};
+  /// Of a section whose tube is still along the whole path: the direction that points up, rad,
+  /// counted as `Upright::angle`. Empty: the normal of the outside points up.
+  std::optional<double> still = {};
 
   [[nodiscard]] double radius() const {
     return surface == Surface::outer ? outer_radius : outer_radius - wall;
@@ -88,6 +91,7 @@ struct Track {
   int turns = 0;        // of a part of a track: the orientation of the whole
   WallRadii wall = {};  // for points on the outer surface: the wall that their beams cross
   std::optional<section::Section> section = {};  // of a tube that is not round
+  std::optional<double> still = {};              // as of its path
 
   /// Returns the distance of two points along the developed surface, mm; B is ignored.
   [[nodiscard]] double tip_step(std::size_t from, std::size_t to) const;
@@ -102,6 +106,9 @@ struct Track {
 ///         out_of_range.
 /// Source  docs/theory/pulse-schedules.md, section 2.1.
 [[nodiscard]] Result<Track> track(const CutPath& cut_path);
+
+/// Returns the path with the tube turned on by so many rad, whole revolutions.
+[[nodiscard]] CutPath turned_on(CutPath path, double turns);
 
 /// Returns the path without repeated positions of the torch, as at a jump of the finished edge;
 /// their corners move to the previous point.

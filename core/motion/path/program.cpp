@@ -40,7 +40,7 @@ constexpr double kIntoArc = 0.03;
 /// Converts the points of a path around a section to the program of a machine that keeps the normal
 /// up. Adds points on arcs, because the chord of two points of the path may cut off a corner.
 Program over_section(const CutWithLead& way, const Track& whole, Angle lean) {
-  const Upright up(*whole.section, lean);
+  const Upright up(*whole.section, lean, whole.still);
   const double radius = whole.radius;
   std::vector<CutPoint> points;
   std::size_t first = 0, last = 0;

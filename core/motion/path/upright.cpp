@@ -42,6 +42,15 @@ double thickest(const section::Section& section) {
   return std::max(section.wall, wall.thickness(outer.at(middle)));
 }
 
+double normal_at(const section::Curve& outside, double s) {
+  const auto at = outside.at(s);
+  return at.nu + kTwoPi * std::round((s - at.s) / outside.girth());
+}
+
+double normal_of_first(const CutPath& path) {
+  return normal_at(path.section->outer(), path.outer_radius * path.phi.front());
+}
+
 CutPath around(const section::Section& section) {
   CutPath out;
   out.outer_radius = equal_radius(section);
@@ -50,10 +59,11 @@ CutPath around(const section::Section& section) {
   return out;
 }
 
-Upright::Upright(const section::Section& section, Angle lean)
+Upright::Upright(const section::Section& section, Angle lean, std::optional<double> still)
     : curve_(section.outer()),
       half_width_(6.0 * section.corner * lean.rad()),
-      step_(std::min({kLongestStep, section.corner * kStepAngle, half_width_ / kStepsOfBlend})) {
+      step_(std::min({kLongestStep, section.corner * kStepAngle, half_width_ / kStepsOfBlend})),
+      still_(still) {
   const auto& segments = curve_.segments();
   const auto curvature = [](const section::OutlineSegment& p) {
     return p.is_arc() ? 1.0 / p.radius : 0.0;
@@ -64,15 +74,11 @@ Upright::Upright(const section::Section& section, Angle lean)
   }
 }
 
-double Upright::normal(double s) const {
-  const auto at = curve_.at(s);
-  return at.nu + kTwoPi * std::round((s - at.s) / curve_.girth());
-}
-
 double Upright::angle(double s) const {
+  if (still_) return *still_;
   const double girth = curve_.girth();
   const auto at = curve_.at(s);
-  double out = normal(s);
+  double out = normal_at(curve_, s);
   for (const Seam& seam : seams_) {
     const double apart = std::abs(std::remainder(at.s - seam.s, girth));
     if (apart >= half_width_) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/base/angle.hpp"
@@ -18,6 +19,13 @@ namespace tubecut::motion {
 /// are not concentric.
 [[nodiscard]] double thickest(const section::Section& section);
 
+/// Returns the angle of the outward normal at girth `s`, rad, with whole revolutions: from x
+/// towards y.
+[[nodiscard]] double normal_at(const section::Curve& outside, double s);
+
+/// Returns the same at the first point of a path around a section.
+[[nodiscard]] double normal_of_first(const CutPath& path);
+
 /// Returns a path without points around a section, its wall the thickest.
 [[nodiscard]] CutPath around(const section::Section& section);
 
@@ -31,16 +39,15 @@ namespace tubecut::motion {
 /// Source  docs/theory/sections.md, section 7.
 class Upright {
  public:
-  /// `lean`: the largest angle between the torch's plane and the normal, > 0.
-  Upright(const section::Section& section, Angle lean);
+  /// `lean`: the largest angle between the torch's plane and the normal, > 0. `still`: the angle of
+  /// the plane if the tube is still.
+  Upright(const section::Section& section, Angle lean, std::optional<double> still = {});
 
   /// Returns l, mm.
   [[nodiscard]] double half_width() const { return half_width_; }
   /// Returns the angle of the torch's plane at girth `s`, rad, with whole revolutions: from x
   /// towards y.
   [[nodiscard]] double angle(double s) const;
-  /// Returns the angle of the normal itself there, counted in the same way.
-  [[nodiscard]] double normal(double s) const;
   /// Returns the place of the outside, mm.
   [[nodiscard]] Eigen::Vector2d point(double s) const { return curve_.at(s).point; }
   /// Returns the girths strictly between two, ascending, at which the curvature jumps or a blend
@@ -54,6 +61,7 @@ class Upright {
   section::Curve curve_;
   double half_width_;
   double step_;  // mm between points
+  std::optional<double> still_;
   struct Seam {
     double s, jump;  // of the curvature, 1/mm
   };

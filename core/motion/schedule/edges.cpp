@@ -122,7 +122,8 @@ std::optional<double> largest_lean(const ScheduleSpec& spec, const Path& path) {
   PathCursor cursor(path, false);
   for (std::size_t i = 0; i < path.intervals() && !stopped(); ++i) {
     const Coordinates x = cursor.at(i, 0.0).x;
-    const double normal = normal_towards(*cut_path->section, {x[3], x[4]});
+    const double normal =
+        cut_path->still ? *cut_path->still : normal_towards(*cut_path->section, {x[3], x[4]});
     most = std::max(most, std::abs(std::remainder(x[0] - normal, kTwoPi)));
   }
   return most;

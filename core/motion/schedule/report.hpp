@@ -119,7 +119,8 @@ struct Report {
                                                           const Program& program, const Path& path);
 
 /// Returns the largest angle between the torch's plane and the normal of the outside at the tip,
-/// rad: that of the blend, and what smoothing the tip adds. Empty unless the cut is of a section.
+/// rad: that of the blend, and what smoothing the tip adds. 0 if the tube is still, because the
+/// plane then has the requested direction. Empty unless the cut is of a section.
 ///
 /// Accuracy  taken at the path's knots.
 [[nodiscard]] std::optional<double> largest_lean(const ScheduleSpec& spec, const Path& path);
