@@ -289,7 +289,7 @@ std::vector<std::string> names(const joint::NodeSpec& node, const std::vector<st
 
 }  // namespace
 
-PartRequest decode_part_request(Reader& in, Tubes tubes) {
+PartRequest decode_part_request(Reader& in) {
   PartRequest out;
   out.preset = decode_preset(in);
   const auto which = in.exactly_one({"members", "target"});
@@ -304,7 +304,7 @@ PartRequest decode_part_request(Reader& in, Tubes tubes) {
   }
   if (which == 0)
     decode_member(in, out);
-  else if (tubes == Tubes::all && has_section_target(in))
+  else if (has_section_target(in))
     decode_section_part(in, out);
   else
     decode_direct(in, out);

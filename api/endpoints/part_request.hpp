@@ -32,9 +32,7 @@ struct PartRequest {
   std::vector<Warning> warnings = {};
 };
 
-/// Which tubes the endpoint takes as a part.
-enum class Tubes { round, all };
-[[nodiscard]] PartRequest decode_part_request(Reader& in, Tubes tubes);
+[[nodiscard]] PartRequest decode_part_request(Reader& in);
 
 /// Errors  those of part::find_member and part::datum_angle; members as in the request.
 [[nodiscard]] Result<PartRequest> resolve(PartRequest request);

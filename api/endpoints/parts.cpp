@@ -131,7 +131,7 @@ void encode_dimension(Writer& each, const part::CheckDimension& d) {
   });
 }
 
-Parts::Spec Parts::decode(Reader& in) { return decode_part_request(in, Tubes::all); }
+Parts::Spec Parts::decode(Reader& in) { return decode_part_request(in); }
 
 Result<Parts::Spec> Parts::resolve(Spec spec) { return api::resolve(std::move(spec)); }
 

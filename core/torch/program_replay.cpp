@@ -14,6 +14,7 @@
 #include "core/motion/replay/reconstruction.hpp"
 #include "core/torch/stretches.hpp"
 #include "core/torch/tab_width.hpp"
+#include "core/torch/torch_stand.hpp"
 
 namespace tubecut::torch {
 namespace {
@@ -150,9 +151,14 @@ class Between {
     const auto sign = machine_.b_positive == motion::BPositive::outer_edge_to_waste ? -1.0 : 1.0;
     const auto quantum = torch.quantum(std::abs(cut.first().b));
     const double radius = cut.cut.path.outer_radius;
-    see(pierce_, std::abs(x[0] - cut.first().phi - turns) * radius, radius * quantum[0]);
+    const auto wanted = first_of(machine_, cut, turns, l_.spec.motion.lean);
+    const double turned = cut.cut.path.section ? std::abs(x[0] - wanted[0])
+                                               : std::abs(x[0] - cut.first().phi - turns);
+    see(pierce_, turned * radius, radius * quantum[0]);
     see(pierce_, std::abs(x[1] - cut.first().z), quantum[1]);
     see(pierce_, std::abs(x[2] - sign * cut.first().b) * radius, radius * quantum[2]);
+    if (cut.cut.path.section)
+      see(pierce_, elementary::hypot(x[3] - wanted[3], x[4] - wanted[4]), quantum[3]);
     if (const auto off = torch.standoff_error(values.now()))
       see(pierce_, std::abs(*off), torch.standoff_quantum());
     const double asked = l_.spec.setup.pierce_delay;
@@ -160,8 +166,8 @@ class Between {
   }
 
   /// Checks the tip's height over the tube while other axes move. Between two places B is linear,
-  /// so the tip is lower by at most its bend.
-  void see_rapid(double radius, const motion::Counted& counted) {
+  /// so the tip is lower by at most its bend. `highest`: of the outside over the axis, in any turn.
+  void see_rapid(double highest, const motion::Counted& counted) {
     if (!lifts_) return;
     motion::AxisValues values(counted, machine_);
     double before = height(values.now());
@@ -172,7 +178,7 @@ class Between {
       const double swung = (swing(values.now()) - b) * kRadPerDeg;
       const double bend = pivot_ * swung * swung / 8.0;
       if (level(counted, k))
-        see(clear_, l_.spec.setup.clearance + radius - std::min(before, now) + bend,
+        see(clear_, l_.spec.setup.clearance + highest - std::min(before, now) + bend,
             quantum() + bend);
       before = now;
     }
@@ -323,7 +329,7 @@ Result<void> examine(const ReplayInput& l, bool own, std::vector<Check>& out, do
     if (stopped()) return fail({.code = ErrorCode::cancelled});
     const auto part = stretch(l.counted, segment, sums);
     const auto& cut = l.cuts[segment.cut];
-    if (segment.kind == Kind::rapid) between.see_rapid(cut.cut.path.outer_radius, part);
+    if (segment.kind == Kind::rapid) between.see_rapid(highest(cut.cut.path), part);
     if (segment.kind == Kind::pierce) between.see_pierce(cut, turns[segment.cut], part);
     if (segment.kind == Kind::cut || segment.kind == Kind::mark) {
       const auto job = cut_job(l.spec, cut, turns[segment.cut]);

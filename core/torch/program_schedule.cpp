@@ -71,6 +71,7 @@ class WholeReport {
       larger(all.*of, r.*of);
     add_uses(r.max_use, all.max_use);
     all.slow.insert(all.slow.end(), r.slow.begin(), r.slow.end());
+    if (r.lean) all.lean = std::max(*r.lean, all.lean.value_or(0.0));
     if (!r.edges) return;
     if (!all.edges) all.edges.emplace();
     larger(all.edges->outer, r.edges->outer);
@@ -158,13 +159,10 @@ class Scheduling {
   }
 
  private:
-  motion::CutPoint first(const std::vector<ProgramCut>& cuts, std::size_t i) const {
-    return stand_.counted(cuts[i].first(), turns_[i]);
-  }
   /// Returns the axis values at the start of a cut's pierce, or of a mark's stroke.
   std::vector<double> over(const std::vector<ProgramCut>& cuts, std::size_t i) const {
-    const auto at = first(cuts, i);
-    return cuts[i].cut.mark ? stand_.cutting(at) : stand_.piercing(at);
+    return cuts[i].cut.mark ? stand_.cutting(cuts[i], turns_[i])
+                            : stand_.piercing(cuts[i], turns_[i]);
   }
   Result<void> told(std::size_t i, Result<void> result) const {
     if (result) return result;
@@ -225,7 +223,7 @@ class Scheduling {
     TRY(room_for(dwell));
     counter_.rest(static_cast<std::int64_t>(std::max(0.0, dwell)));
     event(EventKind::pierce_end, i);
-    TRY(leg({.to = stand_.cutting(first(out_.cuts, i)),
+    TRY(leg({.to = stand_.cutting(out_.cuts[i], turns_[i]),
              .length = std::abs(spec_.setup.pierce_off() - spec_.setup.cut_height),
              .speed = speeds(spec_.motion.speed).least}));
     end();
@@ -323,7 +321,7 @@ motion::ScheduleSpec cut_job(const ProgramSpec& spec, const ProgramCut& cut, dou
   const auto sign = spec.machine.b_positive == motion::BPositive::outer_edge_to_waste ? -1.0 : 1.0;
   auto path =
       motion::as_machine_counts(motion::without_repeats(cut.cut.path), spec.machine.b_positive);
-  for (double& phi : path.phi) phi += turns;
+  path = motion::turned_on(std::move(path), turns);
   motion::ScheduleSpec out{.machine = spec.machine, .motion = spec.motion};
   if (!cut.cut.mark) out.motion.lead = spec.setup.lead;
   out.motion.speed = speed_of(spec, cut.cut);
@@ -363,7 +361,8 @@ Result<ProgramSchedule> schedule(const ProgramSpec& spec) {
   TRY(motion::check(spec.machine));
   TRY(auto cuts, program_cuts(spec));
   TRY(check_periods(spec, cuts));
-  TRY(auto stand, TorchStand::of(spec.machine, cuts.front().cut.path, spec.setup));
+  TRY(auto stand,
+      TorchStand::of(spec.machine, cuts.front().cut.path, spec.setup, spec.motion.lean));
   return Scheduling(spec, std::move(cuts), std::move(stand)).run();
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/try.hpp"
+#include "core/motion/path/course.hpp"
 
 namespace tubecut::torch {
 namespace {
@@ -15,19 +16,27 @@ Result<std::vector<motion::AxisFunction>> functions(motion::Machine machine,
   return motion::axis_functions({.cut = tube, .machine = std::move(machine)});
 }
 
-std::vector<double> values(const std::vector<motion::AxisFunction>& axes,
-                           const motion::CutPoint& point) {
-  std::vector<double> out;
-  for (const auto& f : axes) out.push_back(f.at(motion::Coordinates{point.phi, point.z, point.b}));
-  return out;
-}
-
 }  // namespace
 
+motion::Coordinates first_of(const motion::Machine& machine, const ProgramCut& cut, double turns,
+                             Angle lean) {
+  motion::CutPath tube = cut.cut.path;
+  if (tube.still) *tube.still += turns;
+  motion::CutPoint point = cut.first();
+  point.phi += turns;
+  if (machine.b_positive == motion::BPositive::outer_edge_to_waste) point.b = -point.b;
+  return motion::coordinates_of(tube, lean, point);
+}
+
+double highest(const motion::CutPath& tube) {
+  return tube.section ? tube.section->reach() : tube.outer_radius;
+}
+
 Result<TorchStand> TorchStand::of(const motion::Machine& machine, const motion::CutPath& tube,
-                                  const Setup& setup) {
+                                  const Setup& setup, Angle lean) {
   TorchStand out;
   out.machine_ = machine;
+  out.lean_ = lean;
   TRY(out.cutting_, functions(machine, tube, setup.cut_height));
   TRY(out.piercing_, functions(machine, tube, setup.pierce_off()));
   out.set_height(tube, setup);
@@ -42,23 +51,25 @@ void TorchStand::set_height(const motion::CutPath& tube, const Setup& setup) {
                                     machine_.axes.begin());
   };
   Height height{.axis = find(lift->axis),
-                .clear = tube.outer_radius + lift->pivot_length + setup.clearance};
+                .clear = highest(tube) + lift->pivot_length + setup.clearance};
   if (const auto fine = find(lift->fine); fine < machine_.axes.size()) height.fine = fine;
   height_ = height;
 }
 
-motion::CutPoint TorchStand::counted(motion::CutPoint point, double turns) const {
-  point.phi += turns;
-  if (machine_.b_positive == motion::BPositive::outer_edge_to_waste) point.b = -point.b;
-  return point;
+std::vector<double> TorchStand::values(const Functions& axes, const ProgramCut& cut,
+                                       double turns) const {
+  const auto at = first_of(machine_, cut, turns, lean_);
+  std::vector<double> out;
+  for (const auto& f : axes) out.push_back(f.at(at));
+  return out;
 }
 
-std::vector<double> TorchStand::cutting(const motion::CutPoint& point) const {
-  return values(cutting_, point);
+std::vector<double> TorchStand::cutting(const ProgramCut& cut, double turns) const {
+  return values(cutting_, cut, turns);
 }
 
-std::vector<double> TorchStand::piercing(const motion::CutPoint& point) const {
-  return values(piercing_, point);
+std::vector<double> TorchStand::piercing(const ProgramCut& cut, double turns) const {
+  return values(piercing_, cut, turns);
 }
 
 std::vector<double> TorchStand::clear(std::vector<double> axes) const {

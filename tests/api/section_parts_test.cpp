@@ -53,10 +53,6 @@ TEST(SectionPartRequests, EveryProblemIsAtItsField) {
                  with(bevelled(), "ends/finish/smoothing",
                       parsed(R"({"method": "hermite", "transition_points": 15})")),
                  "/ends/finish/smoothing/method", "unsupported_combination");
-  // A machine's program needs a cross axis, which no endpoint plans yet.
-  const auto schedule = example("pulse-schedules/two-ends-and-four-holes-of-a-part.json");
-  const auto answer = post("/v1/pulse-schedules", with(schedule, "part", bevelled()));
-  ASSERT_TRUE(answer.outcome.error);
 }
 
 /// The girth of 60 x 40 with corners of 6 is 189.70 mm.

@@ -134,10 +134,8 @@ TEST(Sections, EveryFieldIsChecked) {
 
 /// What cannot be cut yet is refused by name, and the hint names who can.
 TEST(Sections, OtherEndpointsNameWhoCutsThem) {
-  const auto schedule = example("pulse-schedules/two-ends-and-four-holes-of-a-part.json");
-  const auto answer =
-      post("/v1/pulse-schedules",
-           with(schedule, "part/target", with(rectangle(80, 80, 4), "corners", "en_10219")));
+  const auto answer = post("/v1/holes", with(without(example("holes/set-on-branch.json"), "chord"),
+                                             "chord/size", "SHS 80x80x4 EN 10219"));
   ASSERT_TRUE(answer.outcome.error);
   bool named = false;
   for (const auto& one : *at(answer.body, "errors").as<api::Json::Array>())

@@ -66,6 +66,7 @@ const exampleNames: Record<string, string> = {
   'pulse-schedules/source-001-mill-path': later('A groove on the cone mill'),
   'pulse-schedules/source-002-offset-pair-on-the-crawler': later('A branch on the crawler'),
   'pulse-schedules/square-tube-on-a-tube-table': later('A square tube on a tube table'),
+  'pulse-schedules/square-post-on-a-tube-table': later('A whole square post on a tube table'),
   'pulse-schedules/two-ends-and-four-holes-of-a-part': later('A whole part: two ends and four holes'),
   'feed-curves/source-004-table-1-as-printed': later('A published feed curve, as printed'),
   'feed-curves/source-004-table-1-as-solved': later('A published feed curve, as solved'),

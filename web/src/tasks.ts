@@ -39,6 +39,7 @@ export const tasks: Task[] = [
     examples: [
       'pulse-schedules/table-1-on-the-five-axis-cutter',
       'pulse-schedules/square-tube-on-a-tube-table',
+      'pulse-schedules/square-post-on-a-tube-table',
       'mill-paths/case-a-end-up',
       'feed-curves/cut-off-194-mm-whole-cycle',
     ],

@@ -6,6 +6,7 @@
 #include "api/endpoints/bevel_table_codec.hpp"
 #include "api/endpoints/groove_codec.hpp"
 #include "api/endpoints/motion/motion_options.hpp"
+#include "api/endpoints/motion/part_job.hpp"
 #include "api/limits.hpp"
 #include "api/wire/common_fields.hpp"
 #include "api/wire/motion_names.hpp"
@@ -13,8 +14,6 @@
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/path/upright.hpp"
-#include "core/part/member.hpp"
-#include "core/torch/marks.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -195,12 +194,6 @@ struct CutOf {
   const ScheduleRequest& request;
   ScheduleJob& job;
 
-  /// A schedule has one pass of every cut, of an end with a land the bevel's.
-  void warn_of_land(std::string member, const std::string& of, double land) const {
-    if (land > 0.0)
-      job.warnings.push_back({WarningCode::land_left, std::move(member),
-                              of + "the bevel's pass leaves its land of " + brief(land) + " mm"});
-  }
   Result<motion::Cut> operator()(const BevelTableRequest& asked) const {
     TRY(const auto spec, under("cut", resolve(asked)));
     TRY(const auto table, under("cut", on_node(spec.source, bevel::table(spec))));
@@ -209,7 +202,7 @@ struct CutOf {
           {.code = ErrorCode::comparison_only, .member = "cut/dihedral", .limit = "weld_side"});
     job.checks = bevel::verify(spec, table);
     job.warnings = under("cut", on_node(spec.source, table.warnings));
-    warn_of_land("cut/root_face_mm", {}, spec.root_face);
+    warn_of_land("cut/root_face_mm", {}, spec.root_face, job);
     return (*this)(contour_of(spec, table));
   }
   Result<motion::Cut> operator()(const SectionCutRequest& asked) const {
@@ -218,7 +211,7 @@ struct CutOf {
     TRY(const auto table, under("cut", on_node(spec.source, bevel::section_table(section, spec))));
     job.checks = bevel::verify(section, spec, table);
     job.warnings = under("cut", on_node(spec.source, table.warnings));
-    warn_of_land("cut/root_face_mm", {}, spec.root_face);
+    warn_of_land("cut/root_face_mm", {}, spec.root_face, job);
     return (*this)(contour_of(section, table));
   }
   Result<motion::Cut> operator()(const groove::MillPathSpec& spec) const {
@@ -236,26 +229,15 @@ struct CutOf {
   }
   /// Its cuts, one after the other, are those of `job.program`.
   Result<motion::Cut> operator()(const PartRequest& spec) const {
-    const auto named = [&](Error error) {
-      return under("part", on_request(spec, std::move(error)));
-    };
-    TRY(const auto part, part::part(spec.part).map_error(named));
-    job.checks = part::verify(spec.part, part);
-    auto warnings = on_request(spec, part.warnings);
-    warnings.insert(warnings.end(), spec.warnings.begin(), spec.warnings.end());
-    job.warnings = under("part", std::move(warnings));
-    auto cuts = torch::torch_cuts(spec.part, part);
-    if (request.marks) cuts = torch::with_marks(spec.part, part, std::move(cuts));
-    job.program = {.cuts = std::move(cuts),
-                   .setup = request.setup,
-                   .machine = request.machine,
-                   .motion = request.motion,
-                   .max_periods = request.max_periods};
-    for (const auto& cut : job.program->cuts)
-      warn_of_land("part", "cut " + cut.name + ": ", cut.land);
+    TRY(add_part(request, spec, job));
     return motion::Cut{};
   }
 };
+
+bool is_section_cut(const CutSource& cut) {
+  const auto* const part = std::get_if<PartRequest>(&cut);
+  return std::holds_alternative<SectionCutRequest>(cut) || (part != nullptr && part->section);
+}
 
 /// Refuses a machine that cannot cut around a tube that is not round, next to all other problems.
 void check_crosses(Reader& in, const motion::Machine& machine) {
@@ -318,14 +300,18 @@ ScheduleRequest decode_schedule_request(Reader& in) {
     case 4:
       out.cut = in.object("part", [](Reader& part) {
         read_inner_common_fields(part);
-        return decode_part_request(part, Tubes::round);
+        return decode_part_request(part);
       });
       break;
     default:
       break;
   }
-  if (std::holds_alternative<PartRequest>(out.cut)) {
-    auto asked = in.object("motion", [&](Reader& m) { return decode_part_motion(m, out.machine); });
+  if (const auto* const part = std::get_if<PartRequest>(&out.cut)) {
+    const auto tube = part->section      ? Tube::section
+                      : in.sound("part") ? Tube::round
+                                         : Tube::unknown;
+    auto asked =
+        in.object("motion", [&](Reader& m) { return decode_part_motion(m, out.machine, tube); });
     out.motion = std::move(asked.motion);
     out.setup = asked.setup;
     out.marks = asked.marks;
@@ -334,45 +320,11 @@ ScheduleRequest decode_schedule_request(Reader& in) {
     const bool certain = chosen && (chosen != 0U || section || in.sound("cut"));
     out.motion = in.object("motion", [&](Reader& m) { return decode_motion(m, out.cut, certain); });
   }
-  if (std::holds_alternative<SectionCutRequest>(out.cut)) check_crosses(in, out.machine);
+  if (is_section_cut(out.cut)) check_crosses(in, out.machine);
   if (std::holds_alternative<motion::CutPath>(out.cut) && out.motion.lead) check_scrap(in);
   out.max_periods =
       static_cast<std::int64_t>(in.binary() ? limit::periods_cbor_max : limit::periods_json_max);
   return out;
-}
-
-Result<ScheduleRequest> resolve(ScheduleRequest request) {
-  auto* const part = std::get_if<PartRequest>(&request.cut);
-  if (part == nullptr) return request;
-  TRY(auto resolved, under("part", resolve(std::move(*part))));
-  for (const auto& hole : resolved.part.holes)
-    if (hole.hole.tilt == bevel::Tilt::free)
-      return fail({.code = ErrorCode::unsupported_combination,
-                   .member = "part/holes/" + std::to_string(hole.asked) + "/tilt",
-                   .got = "free",
-                   .limit = "axial|none",
-                   .hint = "the machine's torch swings along the tube only"});
-  const auto& cutouts = resolved.part.cutouts.all;
-  for (std::size_t k = 0; k < cutouts.size(); ++k)
-    if (std::holds_alternative<cutout::Slit>(cutouts[k].shape))
-      return fail({.code = ErrorCode::unsupported_combination,
-                   .member = "part/cutouts/" + std::to_string(k) + "/shape/kind",
-                   .got = "slit",
-                   .hint = "a slit has no pulses yet, because its path ends in the metal"});
-  for (std::size_t k = 0; k < cutouts.size(); ++k)
-    if (cutouts[k].countersink)
-      return fail({.code = ErrorCode::unsupported_combination,
-                   .member = "part/cutouts/" + std::to_string(k) + "/countersink",
-                   .hint = "the machine's torch swings along the tube only"});
-  for (std::size_t k = 0; k < cutouts.size(); ++k)
-    if (cutout::lay_of(cutouts[k].wall, cutouts[k].tilt) == cutout::Lay::prism)
-      return fail({.code = ErrorCode::unsupported_combination,
-                   .member = "part/cutouts/" + std::to_string(k) + "/tilt",
-                   .got = "free",
-                   .limit = "axial|none",
-                   .hint = "the machine's torch swings along the tube only"});
-  request.cut = std::move(resolved);
-  return request;
 }
 
 Result<ScheduleJob> compute_schedule_job(const ScheduleRequest& request) {

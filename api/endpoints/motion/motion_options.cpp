@@ -15,6 +15,7 @@ using motion::Scrap;
 using motion::Surface;
 
 constexpr std::initializer_list<const char*> kSectionFields{"start_girth_mm", "lean_deg"};
+constexpr std::string_view kNotRound = "belongs to a target that is not round";
 constexpr Range kAnyGirth{.min = -1e6, .max = 1e6};  // mm
 
 motion::Speed decode_speed(Reader& in) {
@@ -134,10 +135,12 @@ std::optional<double> decode_mark_options(Reader& in) {
   return speed ? std::optional(*speed / 60.0) : std::nullopt;
 }
 
-/// Reads the fields of a round target's motion that a section does not have: its speed is that on
-/// the outside, and its places are girths.
-void refuse_round_motion(Reader& in) {
-  refuse_fields(in, {"start_phi_deg"}, "a target that is not round starts at start_girth_mm");
+Angle decode_lean(Reader& in) {
+  return in.angle("lean_deg", {.min = 0.05, .max = 5.0}, Angle::deg(1.0));
+}
+
+/// Reads `speed_on` of a section, whose speed is that on the outside.
+void refuse_inner_speed(Reader& in) {
   if (in.choice("speed_on", Surface::outer) != Surface::inner) return;
   in.issue({.code = ErrorCode::unsupported_combination,
             .pointer = "speed_on",
@@ -156,14 +159,16 @@ motion::Motion decode_motion(Reader& in, const CutSource& cut, bool certain) {
   const bool has_contour = contour != nullptr || std::holds_alternative<BevelTableRequest>(cut);
   out.speed = in.object("speed", decode_speed);
   if (has_contour) out.speed_on = in.choice("speed_on", Surface::outer);
-  if (section != nullptr) refuse_round_motion(in);
+  if (section != nullptr) {
+    refuse_fields(in, {"start_phi_deg"}, "a target that is not round starts at start_girth_mm");
+    refuse_inner_speed(in);
+  }
   if (!certain)
     for (const auto* const name : kSectionFields) in.note(name);
   else if (has_contour)
-    refuse_fields(in, kSectionFields, "belongs to a target that is not round");
+    refuse_fields(in, kSectionFields, kNotRound);
   decode_tolerances(in, out);
-  if (section != nullptr)
-    out.lean = in.angle("lean_deg", {.min = 0.05, .max = 5.0}, Angle::deg(1.0));
+  if (section != nullptr) out.lean = decode_lean(in);
   out.compare = in.flag("compare", false);
   const bool closed = contour == nullptr || contour->closed;
   if (has_contour)
@@ -175,11 +180,20 @@ motion::Motion decode_motion(Reader& in, const CutSource& cut, bool certain) {
   return out;
 }
 
-PartMotion decode_part_motion(Reader& in, const motion::Machine& machine) {
+PartMotion decode_part_motion(Reader& in, const motion::Machine& machine, Tube tube) {
   PartMotion out;
   auto& setup = out.setup;
   out.motion.speed = in.object("speed", decode_speed);
-  out.motion.speed_on = in.choice("speed_on", Surface::outer);
+  if (tube == Tube::section) {
+    refuse_inner_speed(in);
+    refuse_fields(in, {"start_phi_deg", "tabs"},
+                  "a target that is not round is cut without tabs, from a flat or its first point");
+    out.motion.lean = decode_lean(in);
+  } else {
+    out.motion.speed_on = in.choice("speed_on", Surface::outer);
+    if (tube == Tube::round) refuse_fields(in, {"lean_deg"}, kNotRound);
+  }
+  in.note("lean_deg");
   decode_tolerances(in, out.motion);
   setup.start = in.optional_angle("start_phi_deg", kAnyAngleDeg);
   if (!in.is_null("lead")) setup.lead = in.defaulted_object("lead", decode_lead);

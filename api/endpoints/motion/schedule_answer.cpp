@@ -79,8 +79,11 @@ std::vector<AxisSums> sums_of(const ScheduleJob& job, const torch::ProgramCut& c
   return out;
 }
 
+/// The places of a tube that is not round are girths.
 void encode_way(const torch::ProgramCut& cut, Writer& w) {
   const auto& points = cut.way.points.points;
+  const bool section = cut.cut.path.section.has_value();
+  const auto girth = [&](const motion::CutPoint& p) { return cut.cut.path.outer_radius * p.phi; };
   const auto column = [&](double motion::CutPoint::*member) {
     std::vector<double> out;
     for (const auto& point : points) out.push_back(point.*member);
@@ -88,14 +91,23 @@ void encode_way(const torch::ProgramCut& cut, Writer& w) {
   };
   w.object("start", [&](Writer& o) {
     const auto& at = points[cut.way.points.cut_first];
-    o.degrees("phi_deg", at.phi);
+    if (section)
+      o.field("girth_mm", girth(at));
+    else
+      o.degrees("phi_deg", at.phi);
     o.field("z_mm", at.z);
     o.degrees("b_deg", at.b);
     o.field("why", name_of(cut.start));
   });
   w.field("lead_radius_mm", cut.way.radius);
   w.object("way", [&](Writer& o) {
-    o.degrees_column("phi_deg", column(&motion::CutPoint::phi));
+    if (section) {
+      std::vector<double> girths;
+      for (const auto& point : points) girths.push_back(girth(point));
+      o.column("girth_mm", girths);
+    } else {
+      o.degrees_column("phi_deg", column(&motion::CutPoint::phi));
+    }
     o.column("z_mm", column(&motion::CutPoint::z));
     o.degrees_column("b_deg", column(&motion::CutPoint::b));
     o.field("cut_first", cut.way.points.cut_first);

@@ -7,6 +7,7 @@
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
 #include "core/motion/machine/soft_limits.hpp"
+#include "core/motion/path/upright.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -175,6 +176,18 @@ void note_tip(const Course& course, const std::vector<PathPosition>& positions, 
 }
 
 }  // namespace
+
+Coordinates coordinates_of(const CutPath& path, Angle lean, const CutPoint& point) {
+  Coordinates out{point.phi, point.z, point.b};
+  if (!path.section) return out;
+  const Upright up(*path.section, lean, path.still);
+  const double s = path.outer_radius * point.phi;
+  const auto tip = up.point(s);
+  out[0] = up.angle(s);
+  out[3] = tip.x();
+  out[4] = tip.y();
+  return out;
+}
 
 Coordinates coordinates_of(const Program& program, std::size_t i) {
   Coordinates x{};

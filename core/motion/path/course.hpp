@@ -52,6 +52,8 @@ struct PreparedCut {
 
 /// Returns point `i` of the program.
 [[nodiscard]] Coordinates coordinates_of(const Program& program, std::size_t i);
+/// Returns the coordinates that a point of this path has in its program; `lean`: of the motion.
+[[nodiscard]] Coordinates coordinates_of(const CutPath& path, Angle lean, const CutPoint& point);
 
 /// The fraction of each limit that the ideal samples use; 1 is the limit.
 struct AxisUse {

@@ -179,6 +179,14 @@ void sample(const Program& p, const std::vector<double>& s, const std::vector<He
   }
 }
 
+/// Returns how far the curve of a coordinate may leave the range of two neighbouring points, in its
+/// unit. The angle of a section's normal has no weight, because it is no part of the length.
+double overshoot(const Coordinate& of, double eps_tip, double eps_b) {
+  if (of.group == Coordinate::Group::turn) return 0.5 * eps_b;
+  const bool tip = of.group == Coordinate::Group::tip;
+  return 0.5 * (tip ? eps_tip : eps_b * kBevelWeight) / of.weight;
+}
+
 /// Samples the limited Hermite curve through the points about every `d` mm; corners stay.
 ///
 /// Errors  too_many_nodes, cancelled.
@@ -193,12 +201,11 @@ Result<Resampled> resample(const Program& p, double d, double eps_tip, double ep
   const std::vector<bool> corner = corners(p, lengths);
   std::vector<HermiteCurve> curves;
   for (std::size_t c = 0; c < p.x.size(); ++c) {
-    const bool tip = p.coordinates[c].group == Coordinate::Group::tip;
     HermiteCurve& curve = curves.emplace_back(p.x[c], lengths);
     if (stopped()) return fail({.code = ErrorCode::cancelled});
     curve.set_tangents(corner);
     if (stopped()) return fail({.code = ErrorCode::cancelled});
-    curve.limit(0.5 * (tip ? eps_tip : eps_b * kBevelWeight) / p.coordinates[c].weight);
+    curve.limit(overshoot(p.coordinates[c], eps_tip, eps_b));
     if (stopped()) return fail({.code = ErrorCode::cancelled});
   }
   Resampled out;
