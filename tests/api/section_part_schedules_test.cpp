@@ -509,8 +509,8 @@ TEST(SectionPartSchedules, WhatIsNotCutYetIsRefusedByName) {
   expect_refused(kSchedules, round, "/motion/lean_deg", "unsupported_combination");
 }
 
-/// The part of a node is the part given by its two ends, so both have the same cuts.
-TEST(SectionPartSchedules, MemberOfANodeIsScheduled) {
+/// A member that is not round is cut around its own outside, and by no machine for round tubes.
+TEST(SectionPartSchedules, MemberOfANodeIsCutAsItsSection) {
   const auto node = example("nodes/rhs-t-joint.json");
   auto part = with(parsed(R"({"preset": "tube_laser"})"), "members", at(node, "members"));
   part = with(part, "connect", at(node, "connect"));
@@ -520,10 +520,23 @@ TEST(SectionPartSchedules, MemberOfANodeIsScheduled) {
   const auto answer = answered(kSchedules, job);
   ASSERT_FALSE(answer.outcome.error);
   EXPECT_EQ(at(answer.body, "verification/passed"), api::Json{true});
+  const auto made = answered("/v1/parts", part);
+  const auto& section = at(made.body, "result/section");
+  const double corner = number(section, "corner_radius_mm");
+  const Outside outside{0.5 * number(section, "height_mm") - corner,
+                        0.5 * number(section, "width_mm") - corner, corner};
+  const Rebuilt rebuilt(answer.body, 1.0, -1.0);
   std::vector<std::string> cuts;
-  for (const auto& segment : *at(answer.body, "result/segments").as<api::Json::Array>())
-    if (text(segment, "kind") == "cut") cuts.push_back(text(segment, "name"));
+  for (const auto& segment : *at(answer.body, "result/segments").as<api::Json::Array>()) {
+    if (text(segment, "kind") != "cut") continue;
+    cuts.push_back(text(segment, "name"));
+    for (auto i = static_cast<std::size_t>(number(segment, "from"));
+         i <= static_cast<std::size_t>(number(segment, "to")); ++i)
+      ASSERT_LE(std::abs(outside.beyond(rebuilt.tips[i].x, rebuilt.tips[i].y)), 0.05) << i;
+  }
   EXPECT_EQ(cuts, (std::vector<std::string>{"finish", "start"}));
+  const auto round = post(kSchedules, with(job, "machine", std::string("five_axis_cutter")));
+  ASSERT_NE(error_at(round, "/machine"), nullptr) << round.outcome.body.substr(0, 800);
 }
 
 TEST(SectionPartSchedules, ProgramAndChartArePrinted) {
