@@ -476,6 +476,29 @@ TEST(SectionPartSchedules, TubeStandsStillForFlatsAndPrisms) {
   EXPECT_GT(range.at("cut-out round")[1] - range.at("cut-out round")[0], 60.0);
 }
 
+/// Where a cut turns back over a corner, the slope of the angle jumps; and a straight edge there
+/// keeps to the outside: however tight or wide their tolerances are.
+TEST(SectionPartSchedules, AnyToleranceIsAnswered) {
+  auto job = parsed(R"({"part": {"preset": "tube_laser", "kerf_mm": 0.2,
+    "target": {"kind": "flat_oval_tube", "height_mm": 35, "width_mm": 75.7, "wall_mm": 2.35,
+               "length_mm": 300},
+    "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+    "cutouts": [{"id": "slot", "at": {"z_mm": 180, "girth_mm": 70.74}, "shape":
+      {"kind": "slot", "length_mm": 28.287, "width_mm": 7.85, "angle_deg": 2.94}}]},
+    "machine": "tube_table", "motion": {"speed": {"mm_min": 1200}, "eps_b_deg": 0.05,
+    "lead": {"radius_mm": 2, "overcut_mm": 10}}})");
+  EXPECT_EQ(at(answered(kSchedules, job).body, "verification/passed"), api::Json{true});
+  job = with(job, "part/target", parsed(R"({"kind": "flat_oval_tube", "height_mm": 49.524,
+    "width_mm": 94.029, "wall_mm": 4.367, "length_mm": 700})"));
+  job = with(job, "part/kerf_mm", 1.0);
+  job = with(job, "part/cutouts", parsed(R"([{"id": "c0", "wall": "normal", "tilt": "none",
+    "at": {"z_mm": 120, "girth_mm": 33.31}, "shape": {"kind": "rectangle", "along_mm": 36.196,
+      "round_mm": 29.293, "corner_radius_mm": 2.843}}])"));
+  job = with(job, "motion", parsed(R"({"speed": {"mm_min": 4000}, "lead": null,
+    "eps_tip_mm": 0.5, "eps_b_deg": 0.2})"));
+  EXPECT_EQ(at(answered(kSchedules, job).body, "verification/passed"), api::Json{true});
+}
+
 /// Each problem at its own field, all in one answer.
 TEST(SectionPartSchedules, WhatIsNotCutYetIsRefusedByName) {
   auto job = post_of("parts/shs-base-post.json");

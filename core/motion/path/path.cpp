@@ -181,10 +181,16 @@ void sample(const Program& p, const std::vector<double>& s, const std::vector<He
 
 /// Returns how far the curve of a coordinate may leave the range of two neighbouring points, in its
 /// unit. The angle of a section's normal has no weight, because it is no part of the length.
-double overshoot(const Coordinate& of, double eps_tip, double eps_b) {
-  if (of.group == Coordinate::Group::turn) return 0.5 * eps_b;
-  const bool tip = of.group == Coordinate::Group::tip;
-  return 0.5 * (tip ? eps_tip : eps_b * kBevelWeight) / of.weight;
+double overshoot(const Program& p, const Coordinate& of, double eps_tip, double eps_b) {
+  switch (of.group) {
+    case Coordinate::Group::tip:
+      return std::min(0.5 * eps_tip, p.overshoot) / of.weight;
+    case Coordinate::Group::bevel:
+      return 0.5 * (eps_b * kBevelWeight) / of.weight;
+    case Coordinate::Group::turn:
+      break;
+  }
+  return 0.5 * eps_b;
 }
 
 /// Samples the limited Hermite curve through the points about every `d` mm; corners stay.
@@ -205,7 +211,7 @@ Result<Resampled> resample(const Program& p, double d, double eps_tip, double ep
     if (stopped()) return fail({.code = ErrorCode::cancelled});
     curve.set_tangents(corner);
     if (stopped()) return fail({.code = ErrorCode::cancelled});
-    curve.limit(overshoot(p.coordinates[c], eps_tip, eps_b));
+    curve.limit(overshoot(p, p.coordinates[c], eps_tip, eps_b));
     if (stopped()) return fail({.code = ErrorCode::cancelled});
   }
   Resampled out;

@@ -37,6 +37,9 @@ Program from_points(const std::vector<CutPoint>& points, double radius) {
 /// width l moves it by l^2 / (12 r) on an arc of radius r.
 constexpr double kIntoArc = 0.03;
 
+/// The same by the curve through the points, because it may leave a straight edge over a corner.
+constexpr double kOffStraight = 0.05;
+
 /// Converts the points of a path around a section to the program of a machine that keeps the normal
 /// up. Adds points on arcs, because the chord of two points of the path may cut off a corner.
 Program over_section(const CutWithLead& way, const Track& whole, Angle lean) {
@@ -69,6 +72,7 @@ Program over_section(const CutWithLead& way, const Track& whole, Angle lean) {
   }
   out.cut_first = first;
   out.cut_last = last;
+  out.overshoot = kOffStraight;
   out.widest = std::min(out.widest, std::sqrt(12.0 * whole.section->corner * kIntoArc));
   return out;
 }

@@ -35,6 +35,9 @@ struct Program {
   int turns = 0;                  // of phi over a closed contour
   /// The full width of one mean over the tip's coordinates, mm.
   double widest = 1.0;
+  /// How far the curve through the points may leave the range of two neighbours in a coordinate of
+  /// the tip, mm, if half of eps_tip is more.
+  double overshoot = 1e300;
 
   [[nodiscard]] std::size_t size() const { return x.front().size(); }
   /// Returns the generalised distance of two neighbouring points, mm.

@@ -107,7 +107,7 @@ class Examination {
     allow_.place = allow_.tip + 0.5 * path.d;
     allow_.skipped = near + 0.5 * fastest() * counted_.period + 0.5 * path.d;
     allow_.bevel = motion.eps_b.rad() + path.sag_b + bevel;
-    allow_.turn = motion.eps_b.rad() + quantum_[0];
+    allow_.turn = motion.eps_b.rad() + quantum_[0] + rounded_turn(path.d);
     allow_.standoff = torch_.standoff_quantum() * (1.0 + 1e-6);
     if (path.turns()) allow_.standoff += kOffSection;
     for (const AxisFunction& f : job_.course.tip) {
@@ -119,6 +119,16 @@ class Examination {
       const double cos = elementary::cos(largest_b_);
       allow_.thickness = cut_path->wall * allow_.bevel / (cos * cos);
     }
+  }
+
+  /// Returns how far the path's spline of spacing `d` rounds the angle of a section's normal, which
+  /// is not smoothed, where a cut turns back over a corner: a jump K of the slope by K d / 6, and
+  /// from 1 / r to -1 / r at most. A cut around the tube does not turn back.
+  [[nodiscard]] double rounded_turn(double d) const {
+    const auto* const cut_path = std::get_if<CutPath>(&spec_.cut);
+    if (cut_path == nullptr || !cut_path->section) return 0.0;
+    const bool around = cut_path->closed && cut_path->scrap != Scrap::inside;
+    return around ? 0.0 : d / (3.0 * cut_path->section->corner);
   }
 
   [[nodiscard]] double trace_quantum(const AxisFunction& f) const {
