@@ -223,9 +223,11 @@ TorchCut torch_cut(const section::Section& section, const bevel::TableSpec& spec
   out.path.z = table.torch_outer;
   out.path.b = table.b;
   out.path.corner = table.corner;
-  // The first row may lie just before the datum, by rounding.
+  // The first row may lie just before the datum, or just behind it, by rounding: a second point
+  // there would be the same one after whole turns.
+  constexpr double kRounding = 1e-12;  // rad
   auto& phi = out.path.phi;
-  if (phi.size() > 1 && phi.front() > phi[1]) phi.front() = 0.0;
+  if (phi.size() > 1 && (phi.front() > phi[1] || phi.front() < kRounding)) phi.front() = 0.0;
   begin_at_seam(out.path);
   return out;
 }

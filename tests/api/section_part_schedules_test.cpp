@@ -499,6 +499,16 @@ TEST(SectionPartSchedules, AnyToleranceIsAnswered) {
   EXPECT_EQ(at(answered(kSchedules, job).body, "verification/passed"), api::Json{true});
 }
 
+/// The first row of this outline lies behind its datum by rounding.
+TEST(SectionPartSchedules, RowBesideTheDatumIsThatPoint) {
+  const auto job = parsed(R"({"part": {"preset": "tube_laser", "kerf_mm": 0.3, "target":
+    {"kind": "rectangular_tube", "height_mm": 79.67364709674378, "width_mm": 51.970548966922316,
+     "wall_mm": 2.2695739890301665, "corner_radius_mm": 5.313041770991982, "length_mm": 400},
+    "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}}},
+    "machine": "tube_table", "motion": {"speed": {"mm_min": 1500}, "lead": {"radius_mm": 2}}})");
+  EXPECT_EQ(at(answered(kSchedules, job).body, "verification/passed"), api::Json{true});
+}
+
 /// Each problem at its own field, all in one answer.
 TEST(SectionPartSchedules, WhatIsNotCutYetIsRefusedByName) {
   auto job = post_of("parts/shs-base-post.json");
