@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kOnCutter = 1e-12;  // of the larger of the solid's size + `wide` and |z|
 constexpr double kAbove = 1e-9;      // likewise
-constexpr double kTouches = 1e-12;     // likewise
+constexpr double kTouches = 1e-12;   // likewise
 constexpr double kGraze = 4e-12;     // likewise: two verifications of one contact
 constexpr double kLabel = 1e-7;      // likewise: the curve is vertical at a silhouette
 constexpr double kEvent = 1e-8;      // likewise

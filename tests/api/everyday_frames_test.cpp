@@ -455,7 +455,7 @@ TEST(EverydayFrames, ARailWiderThanItsLegsEndsFlatOnTheirFaces) {
           std::set<std::string> codes;
           for (const auto& w : *testing::at(answer.body, "warnings").as<Json::Array>())
             if (text(w, "severity") == "cut") codes.insert(text(w, "code"));
-          // 4.15 mm of it lie beside the face, on either side.
+          // 4.15 mm of it lie past the face, on either side.
           EXPECT_EQ(codes, (std::set<std::string>{"wall_overhangs"})) << turned << " " << height;
           for (const auto& row : *testing::at(answer.body, "result/cut_list").as<Json::Array>())
             if (text(row, "part").starts_with("rail")) {

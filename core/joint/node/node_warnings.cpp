@@ -33,7 +33,7 @@ double mitre_step(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut) 
          cut.eccentricity;
 }
 
-/// Returns how much of an end lies beside the face that it is flat on, because it is wider; mm.
+/// Returns how much of an end lies past the face that it is flat on, because it is wider; mm.
 double flat_overhang(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut) {
   const auto& chord = spec.members[cut.member];
   const auto& own = spec.members[end.member];
@@ -54,7 +54,7 @@ std::string ghost(const NodeSpec& spec, const MemberEnd& end, const CutBy& cut,
            ", which continues it, lies up to " + far + " lower";
   if (cut.past_mitre)
     return "cut by " + other + " beyond the plane at which that member is mitred, up to " + far +
-           " beside the metal of both";
+           " off the metal of both";
   const auto beyond = "cut by " + other + " up to " + far + " beyond that member's end";
   const auto ends_here = [&](std::size_t at) {
     return std::ranges::count(joined[at], end.member, &Touch::other) > 0;
@@ -99,8 +99,8 @@ void warn(const Joints& joints, const MemberEnd& end, const std::optional<Touch>
     if (const double over = flat_overhang(spec, end, cut); over > 0.0)
       out.push_back({.code = WarningCode::wall_overhangs,
                      .member = at,
-                     .detail = "flat on the face of " + called(spec, cut.member) +
-                               ", beside which up to " + brief(over) + " mm of it lie"});
+                     .detail = "flat on the face of " + called(spec, cut.member) + ", and up to " +
+                               brief(over) + " mm of it lie past that face"});
   for (const auto& cut : end.cut_by)
     if (const auto& chord = spec.members[cut.member]; cut.box &&
                                                       cut.box->corner != chord.section->corner &&
