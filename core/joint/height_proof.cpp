@@ -51,11 +51,10 @@ void HeightProof::see_height(const Eigen::Vector3d& at, std::size_t cutter,
   labels_.see(touches || grazed ? off : apart, kLabel * size);
 }
 
-void HeightProof::see_other(std::size_t k, const Eigen::Vector3d& at) {
+void HeightProof::see_other(std::size_t k, const Eigen::Vector3d& at, double size) {
   const auto& solid = solids_[k];
   const auto top = solid.top(at.x(), at.y());
   if (!top) return;
-  const double size = this->size(k, at.z());
   const double above = worst_of({0.0, *top - at.z()});
   // A partner that only touches the line removes no metal.
   const bool touches = above > kAbove * size &&

@@ -25,8 +25,10 @@ class Worst {
 /// height keeps half its digits, so two places with the metal of a touch between them are one.
 class HeightProof {
  public:
-  /// `wide` is the largest distance of the target's surface from its axis, mm.
-  HeightProof(const std::vector<Solid>& solids, double wide) : solids_(solids), wide_(wide) {}
+  explicit HeightProof(const std::vector<Solid>& solids) : solids_(solids) {}
+
+  /// States the surface of what is seen next by its largest distance from the target's axis, mm.
+  void see_surface(double wide) { wide_ = wide; }
 
   /// Sees a row: it lies on its partner, at its highest place, and no other partner is above.
   /// `here(event)` is true for events at this row.
@@ -41,7 +43,8 @@ class HeightProof {
           (event.kind == Kind::jump ? lost : joined).push_back(k);
     see_height(at, cutter, joined);
     for (std::size_t k = 0; k < solids_.size(); ++k)
-      if (k != cutter && std::ranges::find(lost, k) == lost.end()) see_other(k, at);
+      if (k != cutter && std::ranges::find(lost, k) == lost.end())
+        see_other(k, at, size(cutter, at.z()));
   }
   /// Both partners of a junction have one height there.
   void see_junction(const Eigen::Vector3d& at, std::size_t from, std::size_t to);
@@ -55,11 +58,11 @@ class HeightProof {
  private:
   void see_height(const Eigen::Vector3d& at, std::size_t cutter,
                   const std::vector<std::size_t>& joined);
-  void see_other(std::size_t k, const Eigen::Vector3d& at);
+  void see_other(std::size_t k, const Eigen::Vector3d& at, double size);
   [[nodiscard]] double size(std::size_t k, double z) const;
 
   const std::vector<Solid>& solids_;
-  double wide_;
+  double wide_ = 0.0;
   Worst on_cutter_{"on_cutter", "mm"}, none_above_{"none_above", "mm"},
       event_gap_{"event_gap", "mm"}, labels_{"labels", "mm"};
 };

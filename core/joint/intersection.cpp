@@ -96,10 +96,9 @@ std::vector<Check> verify(const IntersectionSpec& spec, const Intersection& answ
   std::vector<Solid> solids;
   if (cutters)
     for (const auto& cutter : *cutters) solids.emplace_back(cutter);
-  double wide = 0.0;
-  for (const auto& p : answer.profiles) wide = std::max(wide, p.radius);
-  HeightProof proof(solids, wide);
+  HeightProof proof(solids);
   for (const auto& p : answer.profiles) {
+    proof.see_surface(p.radius);
     for (std::size_t i = 0; i < p.phi.size() && !stopped(); ++i)
       proof.see_row(math::cylinder_point(p.radius, p.phi[i], p.z[i]), p.cutter[i], p.events,
                     [&](const Event& e) { return apart(e.phi, p.phi[i]) < kHere; });

@@ -113,7 +113,8 @@ std::vector<Check> verify(const section::Section& section, const IntersectionSpe
     for (const auto& cutter : *cutters) solids.emplace_back(cutter);
   const double wide = section.outer().reach();
   Worst on_section("on_section", "mm");
-  HeightProof proof(solids, wide);
+  HeightProof proof(solids);
+  proof.see_surface(wide);
   for (const auto& p : answer.profiles) {
     for (std::size_t i = 0; i < p.z.size() && !stopped(); ++i) {
       on_section.see(off_outline(section, p, i), kOnOutline * wide);
