@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/base/angle.hpp"
 #include "tests/support/call.hpp"
 
 namespace tubecut::testing {
@@ -51,6 +53,34 @@ TEST(SectionMembers, TJointOfRectangularTubes) {
   const auto& brace = end(answer.body, 4);
   EXPECT_EQ(at(brace, "cut_by").as<api::Json::Array>()->size(), 2U);
   EXPECT_EQ(number(brace, "profiles/1/radius_mm"), 24.15);
+}
+
+/// Turned in plan with three decimals, a post as wide as its rail passes it by less than 0.001 mm.
+TEST(SectionMembers, APostAsWideAsItsRailHasTheProfileOfItsBore) {
+  const auto rounded = [](double value) { return std::round(1000.0 * value) / 1000.0; };
+  for (int degrees = 0; degrees <= 90; degrees += 6) {
+    const double x = std::sin(degrees * kRadPerDeg), y = std::cos(degrees * kRadPerDeg);
+    const auto point = [&](double along, double z) {
+      return api::Json{api::Json::Array{rounded(along * x), rounded(along * y), z}};
+    };
+    auto rail = *api::parse(R"({"id": "rail", "up": [0, 0, 1], "priority": 0})");
+    auto stile = *api::parse(R"({"id": "post", "priority": 1})");
+    for (auto* member : {&rail, &stile}) *member = with(*member, "size", "SHS 60x60x4 EN 10219");
+    rail = with(with(rail, "start_mm", point(-500, 0)), "end_mm", point(500, 0));
+    stile = with(with(stile, "start_mm", point(0, 0)), "end_mm", point(0, 600));
+    stile = with(stile, "up", point(1, 0));
+    auto node = *api::parse(R"({"connect": {"within_mm": 30}, "include": ["profiles"]})");
+    const auto answer =
+        post("/v1/nodes", with(node, "members", api::Json{api::Json::Array{rail, stile}}));
+    ASSERT_FALSE(answer.outcome.error) << degrees << answer.outcome.body.substr(0, 600);
+    EXPECT_TRUE(at(answer.body, "warnings").as<api::Json::Array>()->empty()) << degrees;
+    const auto& profiles = *at(end(answer.body, 2), "profiles").as<api::Json::Array>();
+    ASSERT_FALSE(profiles.empty()) << degrees;
+    // On the rail's face, and 4 mm into its corner of 8 mm.
+    const auto z = numbers(profiles.front(), "points/z_mm");
+    EXPECT_NEAR(std::ranges::max(z), 30.0, 1e-3);
+    EXPECT_NEAR(std::ranges::min(z), 22.0 + std::sqrt(64.0 - 16.0), 0.01);
+  }
 }
 
 TEST(SectionMembers, AnEndIsTheAnswerOfItsPartners) {

@@ -116,11 +116,14 @@ Result<std::vector<std::optional<EndCurves>>> profiles(const NodeSpec& spec, con
     const auto& end = nodes.ends[i];
     if (end.cut_by.empty() || end.open || end.consumed) continue;
     const auto joint = joint_of(spec, end);
-    auto made = curves({.target = joint.target,
-                        .partners = seats(joint),
-                        .surfaces = Surfaces::both,
-                        .sampling = left},
-                       joint.section);
+    IntersectionSpec asked{.target = joint.target, .partners = seats(joint), .sampling = left};
+    asked.surfaces = Surfaces::both;
+    auto made = curves(asked, joint.section);
+    // A wall flush with its partners may pass them outside by rounding; its bore meets them.
+    if (!made && end.overhangs && made.error().code() == ErrorCode::open_profile) {
+      asked.surfaces = Surfaces::inner;
+      made = curves(asked, joint.section);
+    }
     if (!made) {
       const auto code = made.error().code();
       if (code == ErrorCode::member_consumed || code == ErrorCode::open_profile ||
