@@ -117,6 +117,7 @@ async function program({browser, origin, service}) {
   await answered(page);
   assert.ok(await page.locator('#panel [name=purpose][value=program]').isChecked());
   await option('material').waitFor();
+  await option('machine').locator('option[value=five_axis_cutter]').waitFor({state: 'attached'});  // the list is fetched
   assert.equal(await option('machine').inputValue(), 'five_axis_cutter');
   assert.deepEqual(page.faults.filter((fault) => !/status of 400/.test(fault)), []);
   await page.context().close();
