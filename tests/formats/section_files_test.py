@@ -235,7 +235,7 @@ class SectionFiles(FormatTest):
         for number in range(12):
             target, (_, width, wall, corner, _) = drawn_section(self.rng)
             middle = width / 2 - corner + corner * math.pi / 4
-            cutouts = [{"id": "vent", "shape": {"kind": "circle", "diameter_mm": 2 * wall + 4}, "at": {"z_mm": 100, "girth_mm": middle}, "wall": "through"},
+            cutouts = [{"id": "vent", "shape": {"kind": "circle", "diameter_mm": 2 * wall + 4}, "at": {"z_mm": 100, "girth_mm": middle}, "wall": "through", "tilt": "free"},
                        {"id": "window", "shape": {"kind": "rectangle", "along_mm": 30, "round_mm": 2 * corner + 10, "corner_radius_mm": 2},
                         "at": {"z_mm": 200, "girth_mm": middle + self.rng.uniform(-4, 4)}, "wall": "developed"},
                        {"id": "slot", "shape": {"kind": "slot", "length_mm": 30, "width_mm": 8, "angle_deg": self.rng.uniform(0, 30)},

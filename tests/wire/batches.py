@@ -191,27 +191,38 @@ class Suite:
                 self.check(1.4 <= seconds, f"25 lines took {seconds:.2f} s at 10 a second")
                 print(f"25 lines at 10 a second: {seconds:.2f} s")
 
+    @staticmethod
+    def six_beside(service, lines):
+        """The end of each of six batches at a time: its summary, or its status."""
+        ended = []
+
+        def one():
+            try:
+                ended.append(list(batch(service.port, lines))[-1]["summary"])
+            except AssertionError as refused:
+                ended.append({"status": refused.args[0]})
+
+        beside = [threading.Thread(target=one) for _ in range(6)]
+        for each in beside:
+            each.start()
+        for each in beside:
+            each.join(60)
+        return ended
+
     def shares_memory(self):
         """Batches whose lines have room only one at a time, or only when another's are through: all come to their end."""
         large = b'{"id":"large","endpoint":"bevel-tables","body":{"x":"' + b"a" * 50_000 + b'"}}'
         lines = b"\n".join([json.dumps(one).encode() for one in self.jobs[:2]] + [large] * 11)
         with Service(self.binary, "--memory-bytes", str(SMALL), "--slots", "1", "--budget-s", "1") as service:
-            ended = []
-
-            def one():
-                try:
-                    ended.append(list(batch(service.port, lines))[-1]["summary"])
-                except AssertionError as refused:
-                    ended.append({"status": refused.args[0]})
-
-            beside = [threading.Thread(target=one) for _ in range(6)]
-            for each in beside:
-                each.start()
-            for each in beside:
-                each.join(60)
-            begun = [s for s in ended if "items" in s]
-            self.check(len(ended) == 6 and all(s.get("status", 429) == 429 for s in ended), f"{ended}")
-            self.check(len(begun) >= 2 and all(s["items"] == 13 and s["unanswered"] == 0 for s in begun), f"{begun}")
+            # On a busy machine one may have all the room before the next one comes: then they are sent again.
+            for _ in range(5):
+                ended = self.six_beside(service, lines)
+                begun = [s for s in ended if "items" in s]
+                self.check(len(ended) == 6 and all(s.get("status", 429) == 429 for s in ended), f"{ended}")
+                self.check(all(s["items"] == 13 and s["unanswered"] == 0 for s in begun), f"{begun}")
+                if len(begun) >= 2:
+                    break
+            self.check(len(begun) >= 2, f"{begun}")
             self.check(self.given_back(service), "memory set aside is not given back")
             print(f"6 batches in {SMALL >> 20} MiB: {ended}")
 

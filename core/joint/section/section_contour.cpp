@@ -29,7 +29,8 @@ using Label = std::optional<std::size_t>;
 /// Finds the events of one outline.
 class Divider {
  public:
-  Divider(SectionContour& out) : out_(out), curve_(out.curve), met_(out.cutters.size(), false) {
+  explicit Divider(SectionContour& out)
+      : out_(out), curve_(out.curve), met_(out.cutters.size(), false) {
     for (std::size_t i = 0; i < out.cutters.size(); ++i) {
       const bool repeats = std::ranges::any_of(active_, [&](std::size_t j) {
         return detail::same_surface(out.cutters[j], out.cutters[i], curve_.reach());

@@ -14,8 +14,6 @@
 namespace tubecut::joint {
 namespace {
 
-using section::Station;
-
 Result<SectionProfile> profile(const SectionContour& contour, const Sampling& sampling, bool outer,
                                std::span<const double> also) {
   TRY(const auto samples, sample(contour, sampling, also));

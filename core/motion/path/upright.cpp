@@ -120,12 +120,12 @@ std::vector<double> Upright::places(double from, double to) const {
   return apart(std::move(out), from, to);
 }
 
-double beyond_outside(const section::Section& section, Eigen::Vector2d point) {
+double beyond_outside(const section::Section& section, const Eigen::Vector2d& point) {
   const Eigen::Vector2d off = point - in_middle(section, point);
   return elementary::hypot(off.x(), off.y()) - section.corner;
 }
 
-double girth_at(const section::Section& section, Eigen::Vector2d point) {
+double girth_at(const section::Section& section, const Eigen::Vector2d& point) {
   const Eigen::Vector2d off = point - in_middle(section, point);
   const auto outside = section.outer();
   if (off.x() == 0.0 || off.y() == 0.0) {
@@ -139,7 +139,7 @@ double girth_at(const section::Section& section, Eigen::Vector2d point) {
   return outside.on_corner(before + 1, turned - 0.5 * kPi * before);
 }
 
-double normal_towards(const section::Section& section, Eigen::Vector2d point) {
+double normal_towards(const section::Section& section, const Eigen::Vector2d& point) {
   const Eigen::Vector2d off = point - in_middle(section, point);
   return elementary::atan2(off.y(), off.x());
 }

@@ -70,11 +70,11 @@ class Upright {
 
 /// Returns the distance of a point from the outside, mm: positive beyond it. Independent of
 /// `section::Curve`: the section is a rectangle that a disc of the corner's radius is moved over.
-[[nodiscard]] double beyond_outside(const section::Section& section, Eigen::Vector2d point);
+[[nodiscard]] double beyond_outside(const section::Section& section, const Eigen::Vector2d& point);
 /// Returns the girth of the place of the outside nearest to the point, mm.
-[[nodiscard]] double girth_at(const section::Section& section, Eigen::Vector2d point);
+[[nodiscard]] double girth_at(const section::Section& section, const Eigen::Vector2d& point);
 /// Returns the direction of the outward normal at the place nearest to the point, rad, -pi..pi, by
 /// the same construction.
-[[nodiscard]] double normal_towards(const section::Section& section, Eigen::Vector2d point);
+[[nodiscard]] double normal_towards(const section::Section& section, const Eigen::Vector2d& point);
 
 }  // namespace tubecut::motion
