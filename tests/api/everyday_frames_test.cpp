@@ -29,6 +29,13 @@ Json frame(const std::string& members, const std::string& joints) {
                 members + R"(], "joints": [)" + joints + "]}");
 }
 
+/// A place of a model that is turned in plan, in mm with three decimals.
+std::string turned_place(double degrees, double x, double y, double z) {
+  const double c = std::cos(degrees * kRadPerDeg), s = std::sin(degrees * kRadPerDeg);
+  const auto rounded = [](double v) { return std::to_string(std::round(v * 1e3) / 1e3); };
+  return "[" + rounded(c * x - s * y) + ", " + rounded(s * x + c * y) + ", " + rounded(z) + "]";
+}
+
 const std::string kPost =
     R"({"id": "post", "start_mm": [0, 0, 0], "end_mm": [0, 0, 1000], "up": [1, 0, 0],
         "size": "SHS 50x50x3 EN 10219", "priority": 1})";
@@ -343,11 +350,7 @@ TEST(EverydayFrames, FlatEndsAtASharedCornerAreThoseOfTheirOwnRequests) {
 /// would have next to the rafter cuts nothing, whatever the last decimal of a turned model is.
 TEST(EverydayFrames, ARafterEndsOnTheBeamAndNotOnThePostBelow) {
   for (const double turned : {0.0, 7.0, 15.5, 33.0, 61.3, 88.0}) {
-    const auto at = [&](double x, double y, double z) {
-      const double c = std::cos(turned * kRadPerDeg), s = std::sin(turned * kRadPerDeg);
-      const auto rounded = [](double v) { return std::to_string(std::round(v * 1e3) / 1e3); };
-      return "[" + rounded(c * x - s * y) + ", " + rounded(s * x + c * y) + ", " + rounded(z) + "]";
-    };
+    const auto at = [&](double x, double y, double z) { return turned_place(turned, x, y, z); };
     const auto members =
         square("beam", at(-300, 0, 2300), at(1000, 0, 2300), "RHS 150x100x5 EN 10219", "[0, 0, 1]",
                0) +
@@ -404,11 +407,7 @@ TEST(EverydayFrames, ATableTurnedInPlanHasTheSameJointsAndParts) {
 /// not cut the post below them, although its lower face is flush with theirs.
 TEST(EverydayFrames, APostUnderThreeRailsEndsOnThoseThatPassOverIt) {
   for (const double turned : {0.0, 33.3, 77.7, 123.4, 199.9, 245.6}) {
-    const auto at = [&](double x, double y, double z) {
-      const double c = std::cos(turned * kRadPerDeg), s = std::sin(turned * kRadPerDeg);
-      const auto rounded = [](double v) { return std::to_string(std::round(v * 1e3) / 1e3); };
-      return "[" + rounded(c * x - s * y) + ", " + rounded(s * x + c * y) + ", " + rounded(z) + "]";
-    };
+    const auto at = [&](double x, double y, double z) { return turned_place(turned, x, y, z); };
     const auto up = "[" + std::to_string(std::cos(turned * kRadPerDeg)) + ", " +
                     std::to_string(std::sin(turned * kRadPerDeg)) + ", 0]";
     const auto rail = [&](const std::string& id, const std::string& from, const std::string& to) {
@@ -473,11 +472,7 @@ TEST(EverydayFrames, ARidgeBeamEndsOnTheSidesOfItsAFrames) {
     for (const double run : {300.0, 600.0, 1000.0})
       for (const int order : {0, 1, 2}) {
         const double c = std::cos(turned * kRadPerDeg), s = std::sin(turned * kRadPerDeg);
-        const auto at = [&](double x, double y, double z) {
-          const auto rounded = [](double v) { return std::to_string(std::round(v * 1e3) / 1e3); };
-          return "[" + rounded(c * x - s * y) + ", " + rounded(s * x + c * y) + ", " + rounded(z) +
-                 "]";
-        };
+        const auto at = [&](double x, double y, double z) { return turned_place(turned, x, y, z); };
         const auto up = "[" + std::to_string(-s) + ", " + std::to_string(c) + ", 0]";
         std::vector<std::string> members;
         for (const int y : {0, 1500})

@@ -452,6 +452,23 @@ class SectionFiles(FormatTest):
             body.pop("reference", None)  # its quantity would multiply the pieces
             self.packet(body)
 
+    def test_a_rail_wider_than_its_legs_is_the_same_part_in_the_call_that_comes_after(self):
+        """Round, between square legs, turned in plan with three decimals, drawn from either end: files, and requests of their own."""
+        turn = self.rng.uniform(0, 2 * math.pi)
+        cos, sin = math.cos(turn), math.sin(turn)
+
+        def at(x, z):
+            return [round(cos * x, 3), round(sin * x, 3), z]
+        lengths = []
+        for ends in ((0, 1000), (1000, 0)):
+            legs = [{"id": f"leg {x}", "start_mm": at(x, 0), "end_mm": at(x, 900), "up": [cos, sin, 0], "size": "SHS 40x40x3 EN 10219"} for x in (0, 1000)]
+            rail = {"id": "rail", "start_mm": at(ends[0], 450), "end_mm": at(ends[1], 450), "outer_diameter_mm": 48.3, "wall_mm": 3.2}
+            body = {"preset": "tube_laser", "kerf_mm": 0.3, "sampling": {"tolerance_mm": 0.05}, "members": [*legs, rail], "connect": {"within_mm": 5}}
+            self.packet(body)
+            cut_list = self.service.answer("frames", body)["result"]["cut_list"]
+            lengths.append(next(row["blank_mm"] for row in cut_list if row["members"] == ["rail"]))
+        self.assertAlmostEqual(lengths[0], lengths[1], delta=0.002)
+
     def packet(self, body):
         packet = zipfile.ZipFile(io.BytesIO(self.service.text("frames", body, "format=zip")))
         parts = json.loads(packet.read("manifest.json"))["parts"]
