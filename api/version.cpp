@@ -4,6 +4,6 @@ namespace tubecut::api {
 
 std::string_view version() { return TUBECUT_VERSION; }
 
-int numerics() { return 10; }
+int numerics() { return 11; }
 
 }  // namespace tubecut::api

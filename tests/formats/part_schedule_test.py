@@ -115,6 +115,17 @@ class PartSchedule(FormatTest):
         self.assertAlmostEqual(result["periods"] * PERIOD, times["total_s"], delta=1e-9)
         self.assertGreaterEqual(times["pierce_s"], 20 * DELAY)
 
+    def test_texts_hold_every_invariant_at_fine_tolerances(self):
+        """Letters turn sharply at few places, so their corners lie anywhere between two knots of the path."""
+        for eps in (0.1, 0.03, 0.02, 0.01, 0.005):
+            for text in ("M7", "NW-4", "X2/K"):
+                job = example()
+                job["part"]["texts"] = [{"id": "mark", "text": text, "at": {"z_mm": 190, "phi_deg": 133}, "height_mm": 8.5}]
+                job["motion"] |= {"eps_tip_mm": eps, "marks": {"speed_mm_min": 2000}}
+                answer = self.service.answer("pulse-schedules", job)
+                self.assertTrue(all(c["value"] <= c["limit"] for c in answer["verification"]["checks"]), (text, eps))
+                self.assertTrue(any(s["name"].startswith("mark of text mark") for s in answer["result"]["segments"] if "name" in s), (text, eps))
+
     def test_no_pulse_drifts(self):
         """At every pierce and every end of a cut each axis is within half a pulse of the laid way."""
         result = self.schedule(self.job())["result"]

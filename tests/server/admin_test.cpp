@@ -87,7 +87,7 @@ TEST(Metrics, CountEveryOutcome) {
         "tubecut_slots 2\n",
         "tubecut_slots_busy 1\n",
         "tubecut_queue_depth 7\n",
-        "tubecut_numerics_info 10\n",
+        "tubecut_numerics_info 11\n",
         "tubecut_refused_total{reason=\"queue_full\"} 9\n",
         "tubecut_clients_hung_up_total 3\n",
         "tubecut_log_lines_dropped_total 4\n",

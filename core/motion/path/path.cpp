@@ -7,6 +7,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/try.hpp"
+#include "core/motion/path/between_knots.hpp"
 
 namespace tubecut::motion {
 namespace {
@@ -255,10 +256,28 @@ using Group = Coordinate::Group;
 
 struct Smoothed {
   std::vector<std::vector<double>> control;  // of the group's coordinates, in their order
-  double deviation = 0.0;                    // mm of generalised length
+  double deviation = 0.0;                    // mm of generalised length, at the knots
+  bool within = false;                       // the tolerance, at the knots and between them
 };
 
-Smoothed smoothed(const Program& p, const Resampled& r, Group group, std::size_t m) {
+/// Returns true if the curve of the tip is within the tolerance of the polyline between its knots,
+/// too. `square`: of its distance at the knots. Only where the curve is off at a knot can it be off
+/// by up to 3.3 times as much at a corner after it.
+bool within_between(const TipPolyline& line, const Resampled& r, const Smoothed& curve,
+                    const std::vector<double>& square, double tolerance) {
+  const double most = tolerance + r.sag_tip, reach = 4.0 * tolerance + 2.0 * r.d + r.sag_tip;
+  const double least = tolerance * tolerance / 16.0;
+  for (std::size_t i = 0; i + 1 < square.size() && !stops(i); ++i) {
+    if (std::max(square[i], square[i + 1]) > least &&
+        line.farthest_between(curve.control, i, r.d, reach) > most)
+      return false;
+  }
+  return true;
+}
+
+/// `line`: of the tip.
+Smoothed smoothed(const Program& p, const Resampled& r, const TipPolyline& line, Group group,
+                  std::size_t m, double tolerance) {
   Smoothed out;
   std::vector<double> square(r.x.front().size(), 0.0);
   for (std::size_t c = 0; c < r.x.size(); ++c) {
@@ -270,22 +289,25 @@ Smoothed smoothed(const Program& p, const Resampled& r, Group group, std::size_t
     }
   }
   out.deviation = std::sqrt(*std::ranges::max_element(square));
+  out.within = out.deviation <= tolerance &&
+               (group != Group::tip || within_between(line, r, out, square, tolerance));
   return out;
 }
 
-/// Finds the widest smoothing that keeps the tolerance. The deviation exceeds it only if it does so
+/// Finds the widest smoothing that keeps the tolerance. The curve is outside it only if it is so
 /// without smoothing.
-Smoothed widest(const Program& p, const Resampled& r, Group group, double most, double tolerance) {
+Smoothed widest(const Program& p, const Resampled& r, const TipPolyline& line, Group group,
+                double most, double tolerance) {
   auto fits = static_cast<std::size_t>(most / (2.0 * r.d));
-  Smoothed best = smoothed(p, r, group, fits);
-  if (best.deviation <= tolerance) return best;
+  Smoothed best = smoothed(p, r, line, group, fits, tolerance);
+  if (best.within) return best;
   std::size_t fails = fits;
   fits = 0;
-  best = smoothed(p, r, group, 0);
-  while (best.deviation <= tolerance && fails - fits > 1 && !stopped()) {
+  best = smoothed(p, r, line, group, 0, tolerance);
+  while (best.within && fails - fits > 1 && !stopped()) {
     const std::size_t m = fits + (fails - fits) / 2;
-    Smoothed next = smoothed(p, r, group, m);
-    if (next.deviation <= tolerance) {
+    Smoothed next = smoothed(p, r, line, group, m, tolerance);
+    if (next.within) {
       best = std::move(next);
       fits = m;
     } else {
@@ -330,14 +352,15 @@ Result<Path> smooth_path(const Program& p, double eps_tip, Angle eps_b) {
     return fail({ErrorCode::out_of_range, "motion/eps_b", eps_b.deg(), 0.01, "deg", {}});
   }
   const double bevel = eps_b.rad() * kBevelWeight;
-  // Without smoothing a knot is off by at most d / 3, so the halving ends.
+  const TipPolyline line(p);
+  // Without smoothing the curve is off by at most d / 3, so the halving ends.
   for (double d = kSpacing;; d *= 0.5) {
     TRY(const auto samples, resample(p, d, eps_tip, eps_b.rad()));
-    Smoothed tip = widest(p, samples, Group::tip, p.widest, eps_tip);
-    Smoothed turn = widest(p, samples, Group::turn, 0.0, eps_tip);
-    Smoothed swing = widest(p, samples, Group::bevel, kWidestBevel, bevel);
+    Smoothed tip = widest(p, samples, line, Group::tip, p.widest, eps_tip);
+    Smoothed turn = widest(p, samples, line, Group::turn, 0.0, eps_tip);
+    Smoothed swing = widest(p, samples, line, Group::bevel, kWidestBevel, bevel);
     if (stopped()) return fail({.code = ErrorCode::cancelled});
-    if (tip.deviation <= eps_tip && swing.deviation <= bevel) {
+    if (tip.within && swing.within) {
       return assembled(p, samples, std::move(tip), std::move(swing), std::move(turn));
     }
   }

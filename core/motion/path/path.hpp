@@ -37,6 +37,11 @@ struct Path {
 /// control point.
 [[nodiscard]] double at_knot(const std::vector<double>& control, std::size_t j);
 
+/// Returns the same spline between knot `i` and the next by rising powers of the offset, for knots
+/// `d` mm apart.
+[[nodiscard]] std::array<double, 4> cubic(const std::vector<double>& control, std::size_t i,
+                                          double d);
+
 /// Evaluates a path at a sequence of places; caches the cubic of the current interval.
 class PathCursor {
  public:
@@ -62,7 +67,8 @@ class PathCursor {
 /// sampled about every 0.1 mm, then smoothed as far as the tolerances (mm, rad) permit.
 ///
 /// Errors    out_of_range (tolerances below 1e-3 mm, 0.01 deg), too_many_nodes, cancelled.
-/// Accuracy  knots within eps_tip and eps_b of the unsmoothed path, measured at every knot.
+/// Accuracy  knots within eps_tip and eps_b of the unsmoothed path, measured at every knot; the tip
+///           between them within eps_tip and `sag_tip` of the polyline.
 /// Source    docs/theory/pulse-schedules.md, sections 2.3 to 2.5.
 [[nodiscard]] Result<Path> smooth_path(const Program& program, double eps_tip, Angle eps_b);
 

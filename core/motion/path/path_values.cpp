@@ -16,7 +16,7 @@ double ahead(const std::vector<double>& p, std::size_t j) {
 struct Cubic {
   double x, first, second, third;
 };
-Cubic cubic(const std::vector<double>& p, std::size_t i, double d) {
+Cubic derivatives(const std::vector<double>& p, std::size_t i, double d) {
   const double a = behind(p, i), b = p[i], c = p[i + 1], e = ahead(p, i + 1);
   return {at_knot(p, i), (c - a) / (2.0 * d), (c - 2.0 * b + a) / (d * d),
           (e - 3.0 * c + 3.0 * b - a) / (d * d * d)};
@@ -29,9 +29,13 @@ double at_knot(const std::vector<double>& p, std::size_t j) {
   return (p[j - 1] + 4.0 * p[j] + p[j + 1]) / 6.0;
 }
 
-std::array<double, 4> Path::cubic(std::size_t c, std::size_t i) const {
-  const auto [x, first, second, third] = motion::cubic(control[c], i, d);
+std::array<double, 4> cubic(const std::vector<double>& p, std::size_t i, double d) {
+  const auto [x, first, second, third] = derivatives(p, i, d);
   return {x, first, 0.5 * second, third / 6.0};
+}
+
+std::array<double, 4> Path::cubic(std::size_t c, std::size_t i) const {
+  return motion::cubic(control[c], i, d);
 }
 
 Coordinates Path::at(std::size_t i, double offset) const {
@@ -66,7 +70,7 @@ Pose PathCursor::at(std::size_t i, double w) {
 Jet Path::jet(std::size_t i, double w, bool bends) const {
   Jet out;
   for (std::size_t c = 0; c < control.size(); ++c) {
-    const Cubic q = motion::cubic(control[c], i, d);
+    const Cubic q = derivatives(control[c], i, d);
     out.value[c] = q.x + w * (q.first + w * (0.5 * q.second + w * (q.third / 6.0)));
     out.first[c] = q.first + w * (q.second + w * 0.5 * q.third);
     out.second[c] = q.second + w * q.third;
