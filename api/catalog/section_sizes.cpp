@@ -188,24 +188,41 @@ std::string nearest_size(const std::vector<double>& measures, const std::string&
   return best == nullptr ? std::string() : best->name;
 }
 
+std::vector<std::string> names_of_sizes() {
+  std::vector<std::string> out;
+  for (const auto& size : section_sizes()) out.push_back(size.name);
+  return out;
+}
+
+/// Returns the sizes that begin with a plain name.
+std::vector<std::string> begun_by(const std::string& meant) {
+  auto out = names_of_sizes();
+  std::erase_if(out, [&](const std::string& size) { return !begins(plain(size), meant); });
+  return out;
+}
+
+/// Returns the plain name of a square that is named by one side, as "shs40x3", with both.
+std::string with_both_sides(const std::string& meant) {
+  const auto first = std::ranges::find_if(meant, [](char c) { return c >= '0' && c <= '9'; });
+  const auto end = std::find(first, meant.end(), 'x');
+  return std::string(meant.begin(), end) + "x" + std::string(first, meant.end());
+}
+
 }  // namespace
 
 std::string section_size_hint(std::string_view name) {
   const auto meant = plain(name);
-  std::vector<std::string> names, begun;
-  for (const auto& size : section_sizes()) {
-    names.push_back(size.name);
-    if (begins(plain(size.name), meant)) begun.push_back(size.name);
-  }
+  const auto measures = measures_in(name);
+  auto begun = begun_by(meant);
+  if (begun.empty() && measures.size() == 2) begun = begun_by(with_both_sides(meant));
   if (begun.size() > 1) {
     std::string out = "did you mean one of " + begun.front();
     for (std::size_t i = 1; i < begun.size(); ++i) out += ", " + begun[i];
     return out + "?";
   }
-  const auto measures = measures_in(name);
   const auto near = !begun.empty()         ? begun.front()
                     : measures.size() == 3 ? nearest_size(measures, meant)
-                                           : nearest_name(name, names);
+                                           : nearest_name(name, names_of_sizes());
   return near.empty() ? "GET /v1/tubes lists the sizes; state any other by kind, height_mm, "
                         "width_mm, wall_mm and corners"
                       : "did you mean " + near + "?";

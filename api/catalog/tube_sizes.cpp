@@ -7,16 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "api/catalog/hollow_sizes.hpp"
 #include "api/catalog/measures.hpp"
 #include "api/catalog/section_sizes.hpp"
-#include "api/wire/json.hpp"
-#include "api/wire/reader.hpp"
+#include "api/wire/field_names.hpp"
 
 namespace tubecut::api {
 namespace {
 
 constexpr std::string_view kAsme = "ASME B36.10M-2018";
-constexpr std::string_view kEn = "EN 10210-2:2006";
 
 struct Schedule {
   std::string_view name;
@@ -245,53 +244,13 @@ const Nominal kNominals[] = {
     {"48", 1219.0, {{"STD", 9.53}, {"XS", 12.70}}},
 };
 
-struct Hollow {
-  double outer_diameter;
-  std::initializer_list<double> walls;
-};
-
-// EN 10210-2, annex B, circular hollow sections.
-const Hollow kHollows[] = {
-    {21.3, {2.3, 2.6, 3.2}},
-    {26.9, {2.3, 2.6, 3.2}},
-    {33.7, {2.6, 3.2, 4.0}},
-    {42.4, {2.6, 3.2, 4.0}},
-    {48.3, {2.6, 3.2, 4.0, 5.0}},
-    {60.3, {2.6, 3.2, 4.0, 5.0}},
-    {76.1, {2.6, 3.2, 4.0, 5.0}},
-    {88.9, {3.2, 4.0, 5.0, 6.3}},
-    {101.6, {3.2, 4.0, 5.0, 6.3, 8.0, 10.0}},
-    {114.3, {3.2, 4.0, 5.0, 6.3, 8.0, 10.0}},
-    {139.7, {4.0, 5.0, 6.3, 8.0, 10.0, 12.5}},
-    {168.3, {4.0, 5.0, 6.3, 8.0, 10.0, 12.5}},
-    {177.8, {5.0, 6.3, 8.0, 10.0, 12.5}},
-    {193.7, {5.0, 6.3, 8.0, 10.0, 12.5, 16.0}},
-    {219.1, {5.0, 6.3, 8.0, 10.0, 12.5, 16.0, 20.0}},
-    {244.5, {5.0, 6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0}},
-    {273.0, {5.0, 6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0}},
-    {323.9, {5.0, 6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0}},
-    {355.6, {6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0}},
-    {406.4, {6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0, 40.0}},
-    {457.0, {6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0, 40.0}},
-    {508.0, {6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0, 40.0, 50.0}},
-    {610.0, {6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0, 40.0, 50.0}},
-    {711.0, {6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0}},
-};
-
 std::vector<TubeSize> all_sizes() {
   std::vector<TubeSize> out;
   for (const auto& nominal : kNominals)
     for (const auto& schedule : nominal.schedules)
       out.push_back({"NPS " + std::string(nominal.nps) + " " + std::string(schedule.name),
                      nominal.outer_diameter, schedule.wall, kAsme});
-  for (const auto& hollow : kHollows)
-    for (const double wall : hollow.walls) {
-      std::string name = "CHS ";
-      append_number(name, hollow.outer_diameter);
-      name += 'x';
-      append_number(name, wall);
-      out.push_back({std::move(name), hollow.outer_diameter, wall, kEn});
-    }
+  add_hollow_sizes(out);
   return out;
 }
 

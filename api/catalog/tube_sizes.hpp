@@ -14,8 +14,9 @@ struct TubeSize {
   std::string_view standard;  // with its edition
 };
 
-/// Every size by name: wall thicknesses of ASME B36.10M, and the circular hollow sections of
-/// EN 10210-2 (the common part of its annex B). Of a standard only rows that are certain are here.
+/// Every size by name: wall thicknesses of ASME B36.10M, the circular hollow sections of EN 10210-2
+/// and EN 10219-2 (the common part of their annexes B), and the pipes of EN 10255. Of a standard
+/// only rows that are certain are here.
 [[nodiscard]] std::span<const TubeSize> tube_sizes();
 
 /// The size of that very name, or nullptr.

@@ -132,6 +132,19 @@ TEST(Sections, EveryFieldIsChecked) {
             "unknown_size");
 }
 
+TEST(Sections, AnUnknownSizeNamesThoseThatAreMeant) {
+  const auto hint = [](const char* size) {
+    return text(post("/v1/bevel-tables",
+                     with(with(k_joint(), "target/kind", "rectangular_tube"), "target/size", size))
+                    .body,
+                "errors/0/hint");
+  };
+  EXPECT_EQ(hint("RHS 100x50x4"),
+            "did you mean one of RHS 100x50x4 EN 10210, RHS 100x50x4 EN 10219?");
+  EXPECT_EQ(hint("SHS 40x3"), "did you mean one of SHS 40x40x3 EN 10210, SHS 40x40x3 EN 10219?");
+  EXPECT_EQ(hint("shs 40x3 EN 10219"), "did you mean SHS 40x40x3 EN 10219?");
+}
+
 /// What cannot be cut yet is refused by name, and the hint names who can.
 TEST(Sections, OtherEndpointsNameWhoCutsThem) {
   const auto answer = post("/v1/holes", with(without(example("holes/set-on-branch.json"), "chord"),

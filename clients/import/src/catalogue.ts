@@ -1,6 +1,6 @@
 /**
  * The sizes that GET /v1/tubes lists, so that an import needs no service: a test compares the two. ASME B36.10M-2018 (table 1, SI
- * columns, DN by ISO 6708), then EN 10210-2:2006. Names of one wall are joined by "=".
+ * columns, DN by ISO 6708), then EN 10210-2:2006 and what EN 10219-2:2006 and EN 10255:2004 add to it. Names of one wall are joined by "=".
  */
 const pipes: [nps: string, dn: number, outer_diameter_mm: number, walls: string][] = [
   ['1/8', 6, 10.3, 'SCH 40=STD 1.73, SCH 80=XS 2.41'],
@@ -100,6 +100,25 @@ const hollows: [outer_diameter_mm: number, walls: string][] = [
   [508, '6.3 8 10 12.5 16 20 25 30 40 50'],
   [610, '6.3 8 10 12.5 16 20 25 30 40 50'],
   [711, '6.3 8 10 12.5 16 20 25 30 40 50 60'],
+  // EN 10219-2
+  [21.3, '2 2.5 3'],
+  [26.9, '2 2.5 3'],
+  [33.7, '2 2.5 3'],
+  [42.4, '2 2.5 3'],
+  [48.3, '2 2.5 3'],
+  [60.3, '2 2.5 3'],
+  [76.1, '2 2.5 3'],
+  [88.9, '2 2.5 3'],
+  [101.6, '2.5 3'],
+  [114.3, '2.5 3'],
+  [139.7, '3'],
+  [168.3, '3'],
+  // EN 10255
+  [60.3, '3.6 4.5'],
+  [76.1, '3.6 4.5'],
+  [114.3, '4.5 5.4'],
+  [139.7, '5.4'],
+  [165.1, '5 5.4'],
 ];
 
 export interface Catalogued {
