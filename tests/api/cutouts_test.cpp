@@ -117,6 +117,42 @@ TEST(Cutouts, ARefusedSideOfARectangleIsOneError) {
   EXPECT_EQ(at(neither.body, "errors").as<Json::Array>()->size(), 2u) << neither.outcome.body;
 }
 
+/// The default of a rectangle's corners is calculated from the tube, the place and the pattern; of
+/// refused ones it is not.
+TEST(Cutouts, ARefusedTubeOrPatternIsItsOwnErrorBesideARectangle) {
+  const auto refused = [](const std::string& target, const std::string& pattern) {
+    return post(kParts,
+                R"({"target": )" + target +
+                    R"(, "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+                               "kerf_mm": 0.5, "cutouts": [{"id": "w", "shape": {"kind": "rectangle",
+                               "along_mm": 20, "round_mm": 10}, "at": {"z_mm": 100, "face": 2})" +
+                    pattern + "}]}");
+  };
+  const auto tube = [](double height, double width, const char* corners) {
+    return R"({"kind": "rectangular_tube", "length_mm": 300, "wall_mm": 2, "height_mm": )" +
+           std::to_string(height) + R"(, "width_mm": )" + std::to_string(width) + ", " + corners +
+           "}";
+  };
+  for (const char* corners :
+       {R"("corner_radius_mm": 4)", R"("corners": "astm_a500")", R"("corners": "en_10219")"})
+    for (const double side : {-1.0, 0.0, 2.0, 4.9, 5001.0, 6000.0})
+      for (const bool across : {false, true}) {
+        const auto answer =
+            refused(tube(across ? 60 : side, across ? side : 60, corners), std::string());
+        ASSERT_TRUE(answer.outcome.error) << side;
+        EXPECT_TRUE(text(answer.body, "errors/0/pointer").starts_with("/target/"))
+            << answer.outcome.body;
+      }
+  for (const char* faces : {"[1, 2, 99999]", "[1, -1]", "[0.118]", "[1, 1]", "[]"}) {
+    const auto answer =
+        refused(tube(60, 60, R"("corner_radius_mm": 4)"),
+                R"(, "pattern": {"kind": "faces", "faces": )" + std::string(faces) + "}");
+    ASSERT_TRUE(answer.outcome.error) << faces;
+    EXPECT_TRUE(text(answer.body, "errors/0/pointer").starts_with("/cutouts/0/pattern/faces"))
+        << answer.outcome.body;
+  }
+}
+
 TEST(Cutouts, FromTheFinishIsTheLengthLessFromTheStart) {
   const auto start = post(kParts, part_with(list(circle())));
   const auto finish =

@@ -72,8 +72,9 @@ double default_radius(const Common& common, const cutout::Spec& spec, const cuto
   return std::min(cutout::least_radius(laying, kerf, b), most);
 }
 
-/// Decodes `shape`, once the wall, the place and the pattern are known.
-void decode_shape(Reader& in, const Common& common, cutout::Spec& out) {
+/// Decodes `shape`, once the wall, the place and the pattern are known. `placed`: they and the tube
+/// were understood, so that a default may be calculated from them.
+void decode_shape(Reader& in, const Common& common, bool placed, cutout::Spec& out) {
   enum class Kind { circle, slot, rectangle, contour, dxf, slit };
   static constexpr std::array kKinds{Option<Kind>{"circle", Kind::circle},
                                      Option<Kind>{"slot", Kind::slot},
@@ -97,7 +98,8 @@ void decode_shape(Reader& in, const Common& common, cutout::Spec& out) {
       out.as_cut = decode_as_cut(in);
       cutout::Rectangle shape{.along = in.number("along_mm", kSize)};
       shape.round = in.number("round_mm", kSize);
-      shape.radius = in.number("corner_radius_mm", kCorner, default_radius(common, out, shape));
+      shape.radius =
+          in.number("corner_radius_mm", kCorner, placed ? default_radius(common, out, shape) : 0.0);
       out.shape = shape;
       return;
     }
@@ -295,8 +297,10 @@ cutout::Spec decode_cutout(Reader& in, const Common& common, std::set<std::strin
   in.note("pattern");
   if (in.has("pattern"))
     out.pattern = in.object("pattern", [&](Reader& p) { return decode_pattern(p, common); });
+  const bool placed =
+      common.sure && in.sound("wall") && in.sound("tilt") && in.sound("at") && in.sound("pattern");
   in.object("shape", [&](Reader& s) {
-    decode_shape(s, common, out);
+    decode_shape(s, common, placed, out);
     return 0;
   });
   decode_countersink(in, common.preset, out);
