@@ -59,6 +59,7 @@ struct Foot {
 Foot nearest_square(const Loop& loop, const Way& centre) {
   constexpr double kSkew = 0.05;  // more than rows of an arc have
   constexpr double kEnds = 0.1;   // of a piece at a corner, where no cut begins
+  constexpr double kSame = 1e-6;  // mm; nearer to a point, the place is that point by rounding
   Foot best, squarest;
   double nearest = std::numeric_limits<double>::infinity(), least = 2.0;
   const auto take = [&](std::size_t i, double share, const Way& at) {
@@ -76,8 +77,9 @@ Foot nearest_square(const Loop& loop, const Way& centre) {
     }
     const Way piece = loop.at(i + 1) - loop.at(i);
     const double share = (centre - loop.at(i)).dot(piece) / piece.squaredNorm();
-    const double first = loop.is_corner(i) ? kEnds : 0.0;
-    const double last = loop.is_corner(i + 1) ? 1.0 - kEnds : 1.0;
+    const double same = kSame / piece.norm();
+    const double first = loop.is_corner(i) ? kEnds : same;
+    const double last = 1.0 - (loop.is_corner(i + 1) ? kEnds : same);
     if (piece.norm() >= kLeastArc && share > first && share < last)
       take(i, share, loop.at(i) + share * piece);
   }

@@ -121,12 +121,13 @@ TEST(Cutouts, ARefusedSideOfARectangleIsOneError) {
 /// refused ones it is not.
 TEST(Cutouts, ARefusedTubeOrPatternIsItsOwnErrorBesideARectangle) {
   const auto refused = [](const std::string& target, const std::string& pattern) {
-    return post(kParts,
-                R"({"target": )" + target +
-                    R"(, "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
-                               "kerf_mm": 0.5, "cutouts": [{"id": "w", "shape": {"kind": "rectangle",
-                               "along_mm": 20, "round_mm": 10}, "at": {"z_mm": 100, "face": 2})" +
-                    pattern + "}]}");
+    const auto body =
+        R"({"target": )" + target +
+        R"(, "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}}, "kerf_mm": 0.5,
+           "cutouts": [{"id": "w", "shape": {"kind": "rectangle", "along_mm": 20, "round_mm": 10},
+           "at": {"z_mm": 100, "face": 2})" +
+        pattern + "}]}";
+    return post(kParts, std::string_view(body));
   };
   const auto tube = [](double height, double width, const char* corners) {
     return R"({"kind": "rectangular_tube", "length_mm": 300, "wall_mm": 2, "height_mm": )" +

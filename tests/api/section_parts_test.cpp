@@ -86,6 +86,25 @@ api::Json with_cutout(const char* text) {
   return with(rail(), "cutouts", api::Json{api::Json::Array{parsed(text)}});
 }
 
+/// Between square ends, the volume is the area of the ring times the length, however few rows there
+/// are.
+TEST(SectionPartRequests, FewRowsHoldTheVolume) {
+  for (const char* size : {"SHS 80x80x4 EN 10219", "RHS 100x50x5 EN 10210", "RHS 60x40x3 EN 10219",
+                           "RHS 200x100x6 EN 10219"})
+    for (int rows = 8; rows <= 20; ++rows) {
+      const auto body =
+          R"({"target": {"size": ")" + std::string(size) +
+          R"(", "length_mm": 400}, "kerf_mm": 0.5, "ends": {"start": {"square_at_mm": 0},
+             "finish": {"square_at_mm": 0}}, "sampling": {"uniform_points": )" +
+          std::to_string(rows) + "}}";
+      const auto answer = post(kParts, std::string_view(body));
+      ASSERT_FALSE(answer.outcome.error) << size << rows << answer.outcome.body.substr(0, 300);
+      const auto& section = at(answer.body, "result/section");
+      EXPECT_NEAR(number(answer.body, "result/lengths/volume_mm3"),
+                  400.0 * number(section, "area_mm2"), 1e-6);
+    }
+}
+
 TEST(SectionPartCutouts, LieOnTheFaceThatTheRequestStates) {
   const auto answer =
       post(kParts, with_cutout(R"({"id": "bolt", "shape": {"kind": "circle", "diameter_mm": 11},

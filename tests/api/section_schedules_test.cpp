@@ -211,5 +211,25 @@ TEST(SectionSchedules, ProgramHasTheAxesOfTheTable) {
   EXPECT_FALSE(chart.outcome.error) << chart.outcome.body.substr(0, 800);
 }
 
+/// A window begins in the middle of a side; by rounding, that is no second point there.
+TEST(SectionSchedules, WindowsTurnedOnAFaceAreMade) {
+  for (const bool as_cut : {true, false})
+    for (int face = 1; face <= 4; ++face)
+      for (int turn = 0; turn <= 180; turn += 15) {
+        const auto job = api::parse(
+            R"({"part": {"target": {"size": "SHS 80x80x4 EN 10219", "length_mm": 400},
+                "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}}, "kerf_mm": 1,
+                "cutouts": [{"id": "w", "shape": {"kind": "rectangle", "along_mm": 18, "round_mm": 6,
+                "corners": ")" +
+            std::string(as_cut ? "as_cut" : "rounded") + R"(", "angle_deg": )" +
+            std::to_string(turn) + R"(}, "at": {"z_mm": 200, "face": )" + std::to_string(face) +
+            R"(}}]}, "machine": "tube_table", "motion": {"speed": {"mm_min": 1200}, "lead": {}}})");
+        ASSERT_TRUE(job);
+        const auto answer = post(kSchedules, *job);
+        EXPECT_FALSE(answer.outcome.error)
+            << face << " " << turn << answer.outcome.body.substr(0, 300);
+      }
+}
+
 }  // namespace
 }  // namespace tubecut::testing

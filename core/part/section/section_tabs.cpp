@@ -223,6 +223,14 @@ std::vector<Issue> check_strips(const TabbedEnd& end) {
                      .unit = "mm",
                      .hint = "the tab, with the beam on both sides, must lie on the flat of face " +
                              std::to_string(tab.face)});
+    if (!(tab.length >= kerf))
+      out.push_back({.code = ErrorCode::out_of_range,
+                     .member = tab_path(i) + "/length",
+                     .got = tab.length,
+                     .limit = kerf,
+                     .unit = "mm",
+                     .hint = "the beam leaves a radius of half its width at the tab's foot, more "
+                             "than half of so short a side; use a longer tab or a narrower kerf"});
     for (std::size_t k = 0; k < i; ++k) {
       const auto& other = end.tabs[k];
       const double apart = std::abs(tab.offset - other.offset) - 0.5 * (tab.width + other.width);

@@ -7,6 +7,7 @@
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
+#include "core/math/mixed.hpp"
 #include "core/part/section/section_part.hpp"
 #include "core/part/section/section_strips.hpp"
 #include "core/part/section/section_tabs.hpp"
@@ -23,6 +24,9 @@ using Eigen::Vector3d;
 
 constexpr double kPlacedOff = 1e-9;  // mm
 constexpr double kVolumeOff = 1e-9;  // relative
+/// rad that facets go round at once; coarse rows leave a whole corner between two of them, where
+/// their extrapolation would be off by more than kVolumeOff.
+constexpr double kMostTurn = 0.4;
 
 /// Transforms from the part's frame to the end's own.
 struct RigidMotion {
@@ -104,7 +108,12 @@ double volume_of(const section::Wall& wall, const SectionEnd& end) {
   const SectionSurface surface(wall, end.spec, end.table);
   double sum = 0.0;
   each_smooth_strip(surface, [&](std::size_t row, double from, double to) {
-    if (!stopped()) sum += by_facets(surface, row, from, to);
+    const double curvature = surface.line(row, 0.5 * (from + to)).at.curvature;
+    const double turn = std::abs(curvature) * (to - from) * surface.width(row);
+    const int pieces = std::max(1, static_cast<int>(std::ceil(turn / kMostTurn)));
+    for (int i = 0; i < pieces && !stopped(); ++i)
+      sum += by_facets(surface, row, math::mixed(from, to, static_cast<double>(i) / pieces),
+                       math::mixed(from, to, static_cast<double>(i + 1) / pieces));
   });
   return sum;
 }

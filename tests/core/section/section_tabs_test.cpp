@@ -170,6 +170,21 @@ TEST(SectionTabs, ATabOverTheDatumIsOneOfAnyFace) {
   EXPECT_NEAR(a->start.table.length_total, a->start.shoulder->length_total + 10.0, 1e-9);
 }
 
+/// The beam leaves a radius of half its width at the tab's foot.
+TEST(SectionTabs, AreAsLongAsTheBeamIsWide) {
+  for (const double kerf : {0.3, 1.0, 2.5, 4.9}) {
+    auto spec = rail(kerf);
+    spec.start_tabs = {{.face = 1, .offset = 0.0, .width = 12.0, .length = kerf}};
+    const auto part = section_part(spec);
+    ASSERT_TRUE(part) << kerf;
+    expect_verified(spec, *part);
+    spec.start_tabs.front().length = 0.99 * kerf;
+    const auto refused = section_part(spec);
+    ASSERT_FALSE(refused) << kerf;
+    EXPECT_EQ(refused.error().issues.front().member, "start/end_tabs/0/length");
+  }
+}
+
 std::vector<std::pair<ErrorCode, std::string>> refusals(const SectionPartSpec& spec) {
   std::vector<std::pair<ErrorCode, std::string>> out;
   const auto part = section_part(spec);
