@@ -125,7 +125,7 @@ class Gcode(FormatTest):
         self.assertAlmostEqual(least, min(x for x, _ in timed), delta=0.0051)
         self.assertAlmostEqual(most, max(x for x, _ in timed), delta=0.0051)
         length, time = map(float, re.search(r"^\(1 cut, ([\d.]+) mm in ([\d.]+) s ", program, re.M).groups())
-        cut = sum(way for _, way in timed[1:])  # the first goes from pierce to cutting height
+        cut = sum(way for _, way in timed)  # the first goes from pierce to cutting height
         self.assertAlmostEqual(length, cut, delta=0.01)
         self.assertAlmostEqual(time, cut / 600 * 60 + 0.5, delta=0.051)
         # At A = phi the line phi lies under the torch, for example at +x: as A grows from 0 the line 1 deg comes there

@@ -64,19 +64,23 @@ std::string kerfs(const std::vector<TorchCutPlaces>& cuts, const Post& post) {
 /// The values derived only from the positions.
 struct Extent {
   double least = 0.0, most = 0.0;  // of the axis along the tube, mm
-  double length = 0.0;             // of all cuts with their leads, mm
+  double length = 0.0;             // of all cuts with their leads and ways down, mm
   std::size_t pierces = 0;
 };
 
+/// `down`: from the height of the pierce to that of the cut, mm.
 Extent extent(const TorchJob& job, const std::vector<TorchCutPlaces>& cuts,
-              const TorchJoints& joints, double off) {
+              const TorchJoints& joints, double off, double down) {
   const auto along = [&](const TorchPlace& at) {
     return joints.along().counted(joints.along_at(at, off)) / joints.along().scale;
   };
   Extent out;
   out.least = out.most = along(cuts.front().places.front());
   for (const auto& cut : cuts) {
-    if (!cut.mark) ++out.pierces;
+    if (!cut.mark) {
+      ++out.pierces;
+      out.length += down;
+    }
     for (std::size_t i = 0; i < cut.places.size(); ++i) {
       const double at = along(cut.places[i]);
       out.least = std::min(out.least, at);
@@ -220,7 +224,9 @@ std::string program_header(const TorchJob& job, const std::vector<TorchCutPlaces
                            const Caption& caption) {
   const auto& o = caption.options;
   const auto& post = post_of(o);
-  const auto found = extent(job, cuts, joints, o.cut_height.value_or(0.0));
+  const double height = o.cut_height.value_or(0.0);
+  const double down = std::abs(o.pierce_height.value_or(height) - height);
+  const auto found = extent(job, cuts, joints, height, down);
   const double pierces = o.pierce_delay.value_or(0.0) * static_cast<double>(found.pierces);
   Lines lines{tube_line(job, post)};
   lines.insert(lines.end(), job.lengths.begin(), job.lengths.end());
@@ -242,7 +248,7 @@ std::string program_header(const TorchJob& job, const std::vector<TorchCutPlaces
   lines.push_back(std::to_string(found.pierces) + (found.pierces == 1 ? " cut, " : " cuts, ") +
                   post.length(found.length) + " in " +
                   measure(60.0 * found.length / *o.speed + pierces, Unit::s) +
-                  " with the delays of the pierce, without rapids");
+                  " with the way down and the delay of each pierce, without rapids");
   add_order(cuts, lines);
   lines.push_back("moves: tip and both edges within " +
                   post.bound(moves.sag + joints.rounding(job.wall)) +
