@@ -211,6 +211,30 @@ TEST(SectionSchedules, ProgramHasTheAxesOfTheTable) {
   EXPECT_FALSE(chart.outcome.error) << chart.outcome.body.substr(0, 800);
 }
 
+/// A small opening is gone round within a few periods, and its check does not mistake its end for
+/// its start.
+TEST(PartSchedules, TinyOpeningsAreFollowedRound) {
+  const auto job = [](double speed, double tolerance) {
+    return *api::parse(R"({"part": {"target": {"outer_diameter_mm": 33.7, "wall_mm": 2,
+        "length_mm": 200}, "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+        "kerf_mm": 0.2, "cutouts": [{"id": "c", "shape": {"kind": "circle", "diameter_mm": 1},
+        "at": {"z_mm": 100, "phi_deg": 30}}]}, "machine": "five_axis_cutter", "motion": {"lead":
+        {"radius_mm": 3}, "eps_tip_mm": )" +
+                       std::to_string(tolerance) + R"(, "speed": {"mm_min": )" +
+                       std::to_string(speed) + "}}}");
+  };
+  for (const double speed : {600.0, 3000.0, 12000.0})
+    for (const double tolerance : {0.02, 0.1, 0.25}) {
+      const auto answer = post(kSchedules, job(speed, tolerance));
+      EXPECT_FALSE(answer.outcome.error)
+          << speed << " " << tolerance << answer.outcome.body.substr(0, 300);
+    }
+  const auto refused = post(kSchedules, job(3000.0, 0.3));
+  ASSERT_TRUE(refused.outcome.error);
+  EXPECT_EQ(text(refused.body, "errors/0/pointer"), "/motion/eps_tip_mm");
+  EXPECT_NEAR(number(refused.body, "errors/0/limit"), 0.1 * M_PI * 0.8, 0.01);
+}
+
 /// A window begins in the middle of a side; by rounding, that is no second point there.
 TEST(SectionSchedules, WindowsTurnedOnAFaceAreMade) {
   for (const bool as_cut : {true, false})

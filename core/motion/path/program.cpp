@@ -103,8 +103,23 @@ Program of_way(const CutWithLead& way, const Track& whole, const Motion& motion)
   return out;
 }
 
+/// Checks that the tolerance is small against a closed path: else the tip might leave out a part of
+/// it, or go round it twice, and nobody could tell.
+Result<void> check_tolerance(const Track& whole, double eps_tip) {
+  constexpr double kMostShare = 0.1;
+  const double most = whole.closed ? kMostShare * lengths_along(whole).back() : eps_tip;
+  if (eps_tip <= most) return {};
+  return fail({.code = ErrorCode::out_of_range,
+               .member = "motion/eps_tip",
+               .got = eps_tip,
+               .limit = most,
+               .unit = "mm",
+               .hint = "at most a tenth of the length of the shortest closed cut"});
+}
+
 Result<Program> of_cut_path(const CutPath& cut_path, const ScheduleSpec& spec) {
   TRY(auto whole, track(cut_path));
+  TRY(check_tolerance(whole, spec.motion.eps_tip));
   if (stopped()) return fail({.code = ErrorCode::cancelled});
   if (spec.way) return of_way(*spec.way, whole, spec.motion);
   TRY(const auto cut, stretch(std::move(whole), spec.motion));

@@ -49,7 +49,8 @@ struct Program {
 /// Checks the input, then applies start point, direction, sector, lead and overcut.
 ///
 /// Errors  bad_number, wrong_count, angle_out_of_range (|B| > 85 deg), duplicate_point, turns_back,
-///         not_closed, out_of_range, unsupported_combination, lead_blocked (a lead or pierce point
+///         not_closed, out_of_range (also a tip tolerance above a tenth of a closed path's length),
+///         unsupported_combination, lead_blocked (a lead or pierce point
 ///         lies in the finished part).
 /// Source  docs/theory/pulse-schedules.md, sections 2.1, 2.2 and 2.6.
 [[nodiscard]] Result<Program> program(const ScheduleSpec& spec);

@@ -13,7 +13,7 @@
 namespace tubecut::motion {
 namespace {
 
-constexpr double kSearchAhead = 0.5;  // mm that the follower searches ahead beyond all allowances
+constexpr double kSearchAhead = 0.5;     // mm that the follower searches beyond all allowances
 constexpr std::size_t kLongWindow = 25;  // periods of I15
 constexpr double kLeadStep = 0.05;       // mm of tip path between checks of the lead's clearance
 /// The most that smoothing may move the tip off the outside of a section, mm.
@@ -67,8 +67,8 @@ class Examination {
   Followed run() {
     std::vector<bool> part;
     for (std::size_t c = 0; c < job_.program.x.size(); ++c) part.push_back(takes_part(c));
-    const double search_ahead = kSearchAhead + 2.0 * allow_.tip + 2.0 * fastest() * counted_.period;
-    Follower follower(job_.program, part, search_ahead);
+    Follower follower(job_.program, part, kSearchAhead + 2.0 * allow_.tip,
+                      2.0 * fastest() * counted_.period);
     AxisValues values(counted_, job_.course.machine);
     for (std::size_t k = 0; k <= counted_.periods && !stopped(); ++k) {
       if (k > 0) values.step(k - 1);

@@ -251,8 +251,12 @@ double Reconstruction::standoff_quantum() const {
   return half_pulse(roles_.height) + fine + pivot_ * half_pulse(roles_.b) * kRadPerDeg;
 }
 
-Follower::Follower(const Program& program, const std::vector<bool>& part, double window)
-    : program_(program), missed_(program.size(), 1e300), window_(window) {
+Follower::Follower(const Program& program, const std::vector<bool>& part, double allowed,
+                   double moved)
+    : program_(program),
+      missed_(program.size(), 1e300),
+      allowed_(allowed),
+      window_(allowed + moved) {
   for (std::size_t c = 0; c < program.coordinates.size(); ++c) {
     if (part[c]) tip_coordinates_.push_back(c);
   }
@@ -280,8 +284,12 @@ Follower::Found Follower::nearest_on(std::size_t i, const TipPoint& tip) const {
 
 Follower::Found Follower::follow(const TipPoint& tip) {
   Found best{1e300, last_at_, low_};
+  // Not farther than the tip can have moved, because a small loop comes back within the window.
+  const double moved = started_ ? 2.0 * distance(last_, tip) : window_;
+  const double reach = std::min(allowed_ + moved, window_);
   for (std::size_t i = low_; i + 1 < points_.size(); ++i) {
-    if (at_[i] > last_at_ + window_) break;
+    if (at_[i] > last_at_ + reach) break;
+    if (at_[i + 1] < last_at_ - reach) continue;
     const Found next = nearest_on(i, tip);
     if (next.distance < best.distance) best = next;
   }

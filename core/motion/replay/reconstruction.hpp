@@ -97,9 +97,9 @@ using TipPoint = Coordinates;
 /// only near the last place, so that the order of the cut counts.
 class Follower {
  public:
-  /// `part`: coordinates that take part. `window`: mm of tip path searched on both sides. If
-  /// cancelled, it is empty.
-  Follower(const Program& program, const std::vector<bool>& part, double window);
+  /// `part`: coordinates that take part. `allowed`: mm of tip path searched on both sides in any
+  /// case; `moved`: the most that a motion of the tip adds to it. If cancelled, it is empty.
+  Follower(const Program& program, const std::vector<bool>& part, double allowed, double moved);
 
   struct Found {
     double distance = 0.0;  // mm
@@ -127,7 +127,7 @@ class Follower {
   std::vector<TipPoint> points_ = {};
   std::vector<double> at_ = {};      // tip length up to each point
   std::vector<double> missed_ = {};  // distance of each point to the path so far
-  double window_;
+  double allowed_, window_;
   std::size_t low_ = 0;   // first segment within the window
   std::size_t near_ = 0;  // first point within the window
   double last_at_ = 0.0;
