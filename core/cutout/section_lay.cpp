@@ -13,9 +13,10 @@ using Eigen::Vector2d;
 using section::Station;
 
 constexpr double kQuarter = 0.5 * kPi;
-constexpr double kEdgeOn = 1e-12;  // of a direction: a flat seen along itself
-constexpr double kBeside = 1e-9;   // mm, from a break
-constexpr double kFound = 1e-13;   // of a way that is halved
+constexpr double kEdgeOn = 1e-12;     // of a direction: a flat seen along itself
+constexpr double kBeside = 1e-9;      // mm, from a break
+constexpr double kFound = 1e-13;      // of a way that is halved
+constexpr double kLeastShare = 1e-9;  // of a segment
 
 double cross2(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -326,17 +327,16 @@ Segment part_of(const Segment& s, double from, double to) {
 }  // namespace
 
 Chain divided(const Chain& chain, const std::vector<double>& breaks) {
-  constexpr double kShort = 1e-9;  // of a segment
   Chain out;
   for (const auto& s : chain) {
     std::vector<double> shares{0.0};
     std::vector<double> found;
     for (const double b : breaks)
       for (const double share : crossings(s, b))
-        if (share > kShort && share < 1.0 - kShort) found.push_back(share);
+        if (share > kLeastShare && share < 1.0 - kLeastShare) found.push_back(share);
     std::ranges::sort(found);
     for (const double share : found)
-      if (share - shares.back() > kShort) shares.push_back(share);
+      if (share - shares.back() > kLeastShare) shares.push_back(share);
     shares.push_back(1.0);
     for (std::size_t i = 0; i + 1 < shares.size(); ++i)
       out.push_back(part_of(s, shares[i], shares[i + 1]));
@@ -350,21 +350,49 @@ double inside(const Segment& s, double b) {
   return low < high ? std::clamp(b, low, high) : b;
 }
 
-std::vector<double> cells(const Segment& s) {
+namespace {
+
+/// The shares within an arc where it turns back across: beside them b may come near to a break that
+/// no segment crosses.
+std::vector<double> turns_back(const Segment& s) {
+  std::vector<double> out;
+  if (!s.arc()) return out;
+  for (int half = -4; half <= 4; ++half)
+    if (const double share = (kQuarter + half * kPi - s.angle) / s.sweep;
+        share > kLeastShare && share < 1.0 - kLeastShare)
+      out.push_back(share);
+  return out;
+}
+
+/// Cells of a segment's part, finer towards its ends.
+void add_cells(const Segment& s, double from, double to, std::vector<double>& out) {
   constexpr int kMiddle = 4, kFiner = 8;
   constexpr double kPlacesATurn = 40.0, kRatio = 0.3;
-  const int count =
-      s.arc() ? std::max(kMiddle,
-                         static_cast<int>(std::ceil(kPlacesATurn * std::abs(s.sweep) / kTwoPi)))
-              : kMiddle;
-  std::vector<double> out;
-  const double cell = 1.0 / count;
-  for (int i = 0; i <= count; ++i) out.push_back(i * cell);
-  for (double at = kRatio * cell; static_cast<int>(out.size()) < count + 1 + 2 * kFiner;
-       at *= kRatio) {
-    out.push_back(at);
-    out.push_back(1.0 - at);
+  const double places = kPlacesATurn * std::abs(s.sweep) * (to - from) / kTwoPi;
+  const int count = s.arc() ? std::max(kMiddle, static_cast<int>(std::ceil(places))) : kMiddle;
+  const double cell = (to - from) / count;
+  out.push_back(from);
+  for (int i = 1; i < count; ++i) out.push_back(from + i * cell);
+  double way = cell;
+  for (int i = 0; i < kFiner; ++i) {
+    way *= kRatio;
+    out.push_back(from + way);
+    out.push_back(to - way);
   }
+}
+
+}  // namespace
+
+std::vector<double> cells(const Segment& s) {
+  std::vector<double> ends = turns_back(s), out;
+  ends.push_back(1.0);
+  std::ranges::sort(ends);
+  double from = 0.0;
+  for (const double to : ends) {
+    add_cells(s, from, to, out);
+    from = to;
+  }
+  out.push_back(1.0);
   std::ranges::sort(out);
   return out;
 }

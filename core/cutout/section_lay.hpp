@@ -115,8 +115,8 @@ class SectionLay {
 [[nodiscard]] Chain divided(const Chain& chain, const std::vector<double>& breaks);
 /// A b within a divided segment, next to the break that it may lie on.
 [[nodiscard]] double inside(const Segment& s, double b);
-/// Shares of a divided segment between which Gauss serves: finer towards its ends, where the way
-/// round may bend as a square root does.
+/// Shares of a divided segment between which Gauss serves: finer towards its ends and towards where
+/// it turns back across, because the way round may bend as a square root does there.
 [[nodiscard]] std::vector<double> cells(const Segment& s);
 
 }  // namespace tubecut::cutout

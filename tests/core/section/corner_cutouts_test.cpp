@@ -207,6 +207,26 @@ TEST(CornerCutouts, LieOnTheTubeAndPassTheirOwnChecks) {
   EXPECT_LT(tight, 60);
 }
 
+/// Seen along its anchor, a circle may reach to 1 um of the bore's side, where depth and way round
+/// bend as a square root does.
+TEST(CornerCutouts, ThatReachAlmostToTheBoresSidePassTheirOwnChecks) {
+  const section::Section section{40, 60, 3, 6, 3};
+  for (const double diameter : {12.0, 19.05, 30.0})
+    for (const double room : {0.0011, 0.002, 0.005, 0.016, 0.05, 0.2})
+      for (const double side : {1.0, -1.0})
+        for (const auto tilt : {bevel::Tilt::free, bevel::Tilt::axial}) {
+          Spec spec{.id = "c", .shape = Circle{diameter}};
+          spec.at = {.z = 300.0, .face = 1};
+          spec.at.offset = side * (0.5 * 60.0 - 3.0 - 0.5 * diameter - room);
+          spec.tilt = tilt;
+          const auto part = plain_part(section, {spec});
+          const auto made = part::section_part(part);
+          ASSERT_TRUE(made) << made.error().issues.front().hint;
+          expect_passed(part::verify(part, *made),
+                        std::to_string(diameter) + " with " + std::to_string(room));
+        }
+}
+
 /// A bolt through a corner meets the far wall at an angle, unless that is the opposite corner.
 TEST(CornerCutouts, ThroughAWallThatLeansTheToolIsRefusedWithItsLack) {
   const section::Section square{80, 80, 4, 8, 4}, flat{100, 50, 4, 8, 4};
