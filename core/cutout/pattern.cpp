@@ -4,21 +4,24 @@
 #include <string_view>
 
 #include "core/base/angle.hpp"
+#include "core/base/try.hpp"
 
 namespace tubecut::cutout {
 namespace {
 
-constexpr double kFullTurn = 1e-12;  // rad
+constexpr double kSamePlace = 1e-9;  // rad
 
-/// Equal steps round the tube must not reach the first again.
-Result<void> check_turn(int count, double turn, const std::string& member) {
-  const double way = (count - 1) * std::abs(turn);
-  if (way < kTwoPi - kFullTurn) return {};
-  return fail({.code = ErrorCode::pattern_wraps,
-               .member = member,
-               .got = static_cast<double>(count),
-               .limit = std::ceil(kTwoPi / std::abs(turn) - kFullTurn),
-               .hint = "with this pitch more lie on each other"});
+/// Equal steps round the tube must not come onto an earlier one after whole turns; `every`: how
+/// many steps until one begins at the same place along the tube again.
+Result<void> check_turn(int count, double turn, const std::string& member, int every = 1) {
+  for (int step = every; step < count; step += every)
+    if (std::abs(std::remainder(step * turn, kTwoPi)) < kSamePlace)
+      return fail({.code = ErrorCode::pattern_wraps,
+                   .member = member,
+                   .got = static_cast<double>(count),
+                   .limit = static_cast<double>(step),
+                   .hint = "with this pitch more lie on each other"});
+  return {};
 }
 
 /// Errors of the inner pattern, at its own fields.
@@ -31,8 +34,10 @@ Error in_each(Error error) {
 struct Steps {
   Result<std::vector<Step>> operator()(const Once&) const { return std::vector<Step>{{}}; }
   Result<std::vector<Step>> operator()(const Linear& p) const {
-    if (auto fits = check_turn(p.count, p.turn, "pattern/count"); !fits)
-      return tl::unexpected(fits.error());
+    // Steps along the tube too never come back.
+    if (p.pitch == 0.0) {
+      TRY(check_turn(p.count, p.turn, "pattern/count"));
+    }
     std::vector<Step> out;
     for (int i = 0; i < p.count; ++i)
       out.push_back({"." + std::to_string(i), i * p.pitch, i * p.turn, {}});
@@ -53,9 +58,9 @@ struct Steps {
     return out;
   }
   Result<std::vector<Step>> operator()(const Grid& p) const {
-    if (auto fits = check_turn(p.round, p.turn, "pattern/round/count"); !fits)
-      return tl::unexpected(fits.error());
-    const bool closed = std::abs(p.round * std::abs(p.turn) - kTwoPi) < 1e-9;
+    const bool staggered = p.stagger == Grid::Stagger::along && p.offset != 0.0;
+    TRY(check_turn(p.round, p.turn, "pattern/round/count", staggered ? 2 : 1));
+    const bool closed = std::abs(p.round * std::abs(p.turn) - kTwoPi) < kSamePlace;
     if (closed && p.stagger == Grid::Stagger::along && p.round % 2 != 0)
       return fail({.code = ErrorCode::pattern_wraps,
                    .member = "pattern/round/count",

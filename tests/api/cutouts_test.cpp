@@ -263,6 +263,49 @@ TEST(Cutouts, RefusalsNameTheCause) {
   EXPECT_EQ(text(none.body, "errors/0/pointer"), "/cutouts/0/pattern/pitch_mm");
 }
 
+/// A pattern is its places: steps along the tube too never come back, and those round it only after
+/// whole turns. The limit of a refusal is accepted.
+TEST(Cutouts, APatternIsItsPlacesHoweverOftenItGoesRound) {
+  const auto one = [](const std::string& id, double z, double phi) {
+    auto out = json(R"({"shape": {"kind": "circle", "diameter_mm": 8}, "at": {}})");
+    out = with(with(std::move(out), "id", Json{id}), "at/z_mm", Json{z});
+    return with(std::move(out), "at/phi_deg", Json{phi});
+  };
+  const auto of = [&](const std::string& pattern) {
+    return part_with(Json{Json::Array{with(one("h", 100, 0), "pattern", json(pattern))}});
+  };
+  const auto expect_same = [](const Json& pattern, const Json& places) {
+    const auto got = post(kParts, pattern), wanted = post(kParts, places);
+    ASSERT_FALSE(got.outcome.error) << got.outcome.body.substr(0, 800);
+    ASSERT_FALSE(wanted.outcome.error) << wanted.outcome.body.substr(0, 800);
+    for (const char* path :
+         {"result/cutout_report/web/width_mm", "result/cutout_report/net_section/area_mm2",
+          "result/lengths/volume_mm3"})
+      EXPECT_NEAR(number(got.body, path), number(wanted.body, path), 1e-6) << path;
+  };
+  expect_same(of(R"({"kind": "linear", "count": 3, "pitch_mm": 40, "pitch_deg": 180})"),
+              part_with(Json{Json::Array{one("a", 100, 0), one("b", 140, 180), one("c", 180, 0)}}));
+  expect_same(of(R"({"kind": "round", "count": 9, "pitch_deg": 80})"),
+              of(R"({"kind": "round", "count": 9, "pitch_deg": 40})"));
+  const auto expect_limit = [&](const std::string& head, const std::string& tail, int count,
+                                int most, const char* member) {
+    const auto refused = post(kParts, of(head + std::to_string(count) + tail));
+    ASSERT_TRUE(refused.outcome.error) << head;
+    EXPECT_EQ(text(refused.body, "errors/0/code"), "pattern_wraps") << head;
+    EXPECT_EQ(text(refused.body, "errors/0/pointer"), "/cutouts/0/pattern/" + std::string(member));
+    EXPECT_EQ(number(refused.body, "errors/0/limit"), most) << head;
+    const auto taken = post(kParts, of(head + std::to_string(most) + tail));
+    EXPECT_FALSE(taken.outcome.error) << taken.outcome.body.substr(0, 800);
+  };
+  expect_limit(R"({"kind": "round", "count": )", R"(, "pitch_deg": -80})", 20, 9, "count");
+  expect_limit(R"({"kind": "linear", "count": )", R"(, "pitch_deg": 180})", 3, 2, "count");
+  expect_limit(R"({"kind": "grid", "along": {"count": 2, "pitch_mm": 40}, "round": {"count": )",
+               R"(, "pitch_deg": 120}})", 4, 3, "round/count");
+  // An odd row of a staggered grid lies between those of the even ones.
+  expect_limit(R"({"kind": "grid", "along": {"count": 2, "pitch_mm": 40}, "round": {"count": )",
+               R"(, "pitch_deg": 120}, "stagger": "along"})", 7, 6, "round/count");
+}
+
 /// A limit that a refusal states is accepted when it is followed, and what fits nowhere is told so.
 TEST(Cutouts, LimitsNearTheBoreAreAcceptedAndWhatFitsNowhereIsTold) {
   const auto sent = [](const std::string& shape, const std::string& wall, double z) {

@@ -162,10 +162,6 @@ TEST(SectionPartCutouts, EveryProblemIsAtItsField) {
          "bad_choice");
   expect(kFace, R"(, "pattern": {"kind": "faces", "faces": [2, 3]})", "/cutouts/0/pattern/faces",
          "unsupported_combination");
-  expect(kFace,
-         R"(, "pattern": {"kind": "faces", "faces": [1],
-                          "each": {"kind": "linear", "count": 9, "pitch_round_mm": 30}})",
-         "/cutouts/0/pattern/each/count", "pattern_wraps");
   expect_refused("/v1/parts", with(rail(), "accept", with(parsed("{}"), "min_diameter_mm", 3.0)),
                  "/accept/min_diameter_mm", "unsupported_combination");
   // A round tube has no faces.
@@ -176,6 +172,33 @@ TEST(SectionPartCutouts, EveryProblemIsAtItsField) {
           R"({"id": "a", "shape": {"kind": "circle", "diameter_mm": 11}, "at": {"z_mm": 300, "phi_deg": 0},
           "pattern": {"kind": "faces", "faces": [1]}})")}});
   expect_refused(kParts, round, "/cutouts/0/pattern/kind", "unsupported_combination");
+}
+
+/// Quarters of the girth come back after four steps, unless they go along the tube too.
+TEST(SectionPartCutouts, APatternWrapsAfterWholeTurns) {
+  const double girth = 2.0 * (60.0 + 40.0) - 8.0 * 6.0 + 12.0 * kPi;
+  const auto posted = [&](const char* pattern, const char* each, int count) {
+    auto row = with(parsed(pattern), std::string(each) + "count", api::Json{count * 1.0});
+    row = with(std::move(row), std::string(each) + "pitch_round_mm", api::Json{0.25 * girth});
+    auto hole = parsed(R"({"id": "a", "shape": {"kind": "circle", "diameter_mm": 5},
+                           "at": {"z_mm": 300, "face": 1}})");
+    return post(kParts, with(rail(), "cutouts",
+                             api::Json{api::Json::Array{with(hole, "pattern", std::move(row))}}));
+  };
+  for (const auto& [pattern, each] :
+       {std::pair{R"({"kind": "linear"})", ""},
+        std::pair{R"({"kind": "faces", "faces": [1], "each": {"kind": "linear"}})", "each/"}}) {
+    const auto refused = posted(pattern, each, 9);
+    ASSERT_TRUE(refused.outcome.error);
+    EXPECT_EQ(text(refused.body, "errors/0/code"), "pattern_wraps");
+    EXPECT_EQ(text(refused.body, "errors/0/pointer"),
+              "/cutouts/0/pattern/" + std::string(each) + "count");
+    EXPECT_EQ(number(refused.body, "errors/0/limit"), 4.0);
+    const auto most = posted(pattern, each, 4);
+    EXPECT_FALSE(most.outcome.error) << most.outcome.body.substr(0, 800);
+  }
+  const auto helix = posted(R"({"kind": "linear", "pitch_mm": 40})", "", 9);
+  EXPECT_FALSE(helix.outcome.error) << helix.outcome.body.substr(0, 800);
 }
 
 /// The default radius is the least that the kerf allows where the rectangle lies: half the kerf on
