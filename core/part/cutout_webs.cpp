@@ -73,6 +73,7 @@ struct WallsOfPart {
   const CutoutSpecs& specs;
   const cutout::Layout& layout;
   std::vector<const bevel::Hole*> holes;
+  std::vector<std::string> hole_names;
   std::array<PartWall, 2> walls;
   double gross = 0.0;  // mm^2, of the tube's section
 };
@@ -317,7 +318,7 @@ class CutoutSearch {
     Issue out{.code = ErrorCode::cutouts_cross, .member = cutout::path_of(asked)};
     const auto& own = instance(pair.instance).name;
     if (pair.other.hole) {
-      out.hint = own + " meets hole " + std::to_string(pair.other.index + 1);
+      out.hint = own + " meets " + part_.hole_names[pair.other.index];
       return out;
     }
     const auto& other = instance(pair.other.index);
@@ -352,6 +353,10 @@ Edge bore_edge(const section::Wall& wall, const bevel::SectionTable& t) {
 
 }  // namespace
 
+std::string name_of(const HoleSpec& hole) {
+  return hole.name.empty() ? "holes/" + std::to_string(hole.asked) : "the hole for " + hole.name;
+}
+
 Result<CutoutReport> check_cutouts(const PartSpec& spec, const Part& part) {
   const auto wall = [&](bool outer) {
     const auto edge = [&](const bevel::Table& t) {
@@ -361,9 +366,12 @@ Result<CutoutReport> check_cutouts(const PartSpec& spec, const Part& part) {
                     edge(part.start.table), edge(part.finish.table)};
   };
   const double outer = spec.target.outer_radius, inner = spec.target.inner_radius();
-  WallsOfPart walls{spec.cutouts, part.cutouts, {}, {wall(true), wall(false)}};
+  WallsOfPart walls{spec.cutouts, part.cutouts, {}, {}, {wall(true), wall(false)}};
   walls.gross = kPi * (outer * outer - inner * inner);
-  for (const auto& placed : part.holes) walls.holes.push_back(&placed.hole);
+  for (const auto& placed : part.holes) {
+    walls.holes.push_back(&placed.hole);
+    walls.hole_names.push_back(name_of(spec.holes[placed.asked]));
+  }
   return search(walls);
 }
 
@@ -373,6 +381,7 @@ Result<CutoutReport> check_cutouts(const SectionPartSpec& spec, const SectionPar
   return search(
       {spec.cutouts,
        part.cutouts,
+       {},
        {},
        {PartWall{wall.outer().girth() / kTwoPi, true, edge_over_girth(start, start.z_outer),
                  edge_over_girth(finish, finish.z_outer)},

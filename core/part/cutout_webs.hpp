@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "core/part/cutout_report.hpp"
@@ -20,5 +21,8 @@ namespace tubecut::part {
 /// The same of a part that is not round: phases are shares of the girth of the wall in question.
 [[nodiscard]] Result<CutoutReport> check_cutouts(const SectionPartSpec& spec,
                                                  const SectionPart& part);
+
+/// How a hint names a hole: by its branch, else by its field of the request.
+[[nodiscard]] std::string name_of(const HoleSpec& hole);
 
 }  // namespace tubecut::part

@@ -202,12 +202,9 @@ std::vector<Issue> check_texts(const PartSpec& spec, const Part& part,
                   .finish = {part.finish.table.phi, part.finish.table.z_outer},
                   .openings = {}};
   add_cutouts(part.cutouts, outside);
-  for (const auto& placed : part.holes) {
-    const auto& name = spec.holes[placed.asked].name;
-    outside.openings.push_back(
-        {outer_line(placed.hole, spec.target.outer_radius), WallPoint::Zero(),
-         name.empty() ? "hole " + std::to_string(placed.asked + 1) : "the hole for " + name});
-  }
+  for (const auto& placed : part.holes)
+    outside.openings.push_back({outer_line(placed.hole, spec.target.outer_radius),
+                                WallPoint::Zero(), name_of(spec.holes[placed.asked])});
   return check(outside, texts);
 }
 

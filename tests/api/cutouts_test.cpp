@@ -306,6 +306,26 @@ TEST(Cutouts, APatternIsItsPlacesHoweverOftenItGoesRound) {
                R"(, "pitch_deg": 120}, "stagger": "along"})", 7, 6, "round/count");
 }
 
+/// A cut-out that meets a hole names it by its branch, else by its field.
+TEST(Cutouts, TheHoleThatOneMeetsIsNamed) {
+  const auto hole = [](double height) {
+    return with(json(R"({"branch": {"outer_diameter_mm": 42.4, "wall_mm": 4, "inclination_deg": 90,
+                          "clocking_deg": 90, "offset_mm": 0}, "joint": {"kind": "set_in",
+                          "gap_mm": 1}, "groove": {"rule": "none"}})"),
+                "branch/height_mm", Json{height});
+  };
+  for (const std::size_t met : {0, 1}) {
+    auto body = part_with(list(R"({"id": "c", "shape": {"kind": "circle", "diameter_mm": 10},
+                                   "at": {"z_mm": )" +
+                               std::to_string(met == 0 ? 120 : 280) + R"(, "phi_deg": 0}})"));
+    body = with(std::move(body), "holes", Json{Json::Array{hole(120), hole(280)}});
+    const auto field = "holes/" + std::to_string(met);
+    EXPECT_EQ(text(post(kParts, body).body, "errors/0/hint"), "c meets " + field);
+    body = with(std::move(body), field + "/branch/id", Json{"B1"});
+    EXPECT_EQ(text(post(kParts, body).body, "errors/0/hint"), "c meets the hole for B1");
+  }
+}
+
 /// A limit that a refusal states is accepted when it is followed, and what fits nowhere is told so.
 TEST(Cutouts, LimitsNearTheBoreAreAcceptedAndWhatFitsNowhereIsTold) {
   const auto sent = [](const std::string& shape, const std::string& wall, double z) {
