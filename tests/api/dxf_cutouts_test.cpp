@@ -200,6 +200,23 @@ TEST(DxfCutouts, EveryProblemIsAtTheText) {
   EXPECT_NEAR(number(whole.body, "result/cutouts/0/instances/0/z_from_mm"), 292.0, 1e-6);
 }
 
+/// Blank lines and the Ctrl-Z of DOS behind the end of a file say nothing; anything else is
+/// refused.
+TEST(DxfCutouts, EndAtTheirEof) {
+  const std::string text =
+      "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n10\n0\n20\n0\n40\n8\n0\nENDSEC\n0\nEOF";
+  const auto whole = post(kParts, part_with(drawn(text), 0.0));
+  ASSERT_FALSE(whole.outcome.error) << whole.outcome.body.substr(0, 800);
+  for (const char* tail :
+       {"\n", "\r\n", "\n\n", "\n\n\n", "\n \t\r\n", "\n\x1a", "\r\n\x1a\r\n\r\n"}) {
+    const auto answer = post(kParts, part_with(drawn(text + tail), 0.0));
+    ASSERT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+    EXPECT_EQ(at(answer.body, "job/result_sha256"), at(whole.body, "job/result_sha256"));
+  }
+  for (const char* tail : {"\nand more", "\n\nand more"})
+    expect_refused(kParts, part_with(drawn(text + tail), 0.0), "/cutouts/0/shape/dxf", "bad_text");
+}
+
 /// A corner of a polyline is a place that the text states, never another: a number that cannot be
 /// read, or none, is refused, and so is an entity that is not flat.
 TEST(DxfCutouts, NoPlaceIsGuessed) {

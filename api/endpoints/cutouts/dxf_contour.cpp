@@ -53,10 +53,12 @@ tl::unexpected<Error> no_dxf(std::string hint) {
   return fail({.code = ErrorCode::bad_text, .hint = std::move(hint)});
 }
 
+/// Without the blanks around it, and without the Ctrl-Z with which DOS ends a file.
 std::string_view trimmed(std::string_view line) {
-  const auto first = line.find_first_not_of(" \t\r");
+  constexpr std::string_view kBlank = " \t\r\x1a";
+  const auto first = line.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
-  return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
+  return line.substr(first, line.find_last_not_of(kBlank) - first + 1);
 }
 
 std::string_view next_line(std::string_view& text) {
@@ -75,12 +77,21 @@ std::optional<Number> number_of(std::string_view text) {
   return out;
 }
 
+bool is_blank(std::string_view text) {
+  while (!text.empty())
+    if (!next_line(text).empty()) return false;
+  return true;
+}
+
+/// The groups up to EOF, behind which there may be blank lines.
 Result<std::vector<Group>> groups_of(std::string_view text) {
   std::vector<Group> out;
+  const auto ended = [&] { return out.back().code == 0 && out.back().value == "EOF"; };
   while (!text.empty()) {
     const auto code = number_of<int>(next_line(text));
     if (!code) return no_dxf("every odd line of a DXF text is a group code, a whole number");
     out.push_back({*code, next_line(text)});
+    if (ended() && is_blank(text)) break;
   }
   return out;
 }
