@@ -201,6 +201,28 @@ TEST(SectionPartCutouts, APatternWrapsAfterWholeTurns) {
   EXPECT_FALSE(helix.outcome.error) << helix.outcome.body.substr(0, 800);
 }
 
+/// A step to either side that leaves the flat is told alike: at the pattern, by the flat that it
+/// leaves or does not reach.
+TEST(SectionPartCutouts, APatternThatLeavesItsFlatIsToldAlikeToBothSides) {
+  const auto refusal = [](double pitch) {
+    const auto answer = post(kParts, with(parsed(R"({"target": {"kind": "flat_oval_tube",
+        "height_mm": 30, "width_mm": 60, "wall_mm": 2, "length_mm": 400}, "kerf_mm": 1,
+        "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+        "cutouts": [{"id": "s", "shape": {"kind": "slit", "length_mm": 20}, "at": {"z_mm": 200,
+        "face": 1}, "pattern": {"kind": "linear", "count": 2}}]})"),
+                                          "cutouts/0/pattern/pitch_round_mm", api::Json{pitch}));
+    EXPECT_EQ(text(answer.body, "errors/0/pointer"), "/cutouts/0/pattern") << pitch;
+    EXPECT_EQ(text(answer.body, "errors/0/got"), "s.1") << pitch;
+    return text(answer.body, "errors/0/hint");
+  };
+  for (const double pitch : {15.0, 20.0, 38.0, 40.0, 60.0}) {
+    auto back = refusal(-pitch);
+    if (const auto face = back.find("face 4"); face != std::string::npos) back[face + 5] = '2';
+    EXPECT_EQ(refusal(pitch), back);
+  }
+  EXPECT_NE(refusal(-20.0).find("5.5 mm beyond the flat of face 1"), std::string::npos);
+}
+
 /// The default radius is the least that the kerf allows where the rectangle lies: half the kerf on
 /// a flat, more over a corner, and a little less is refused.
 TEST(SectionPartCutouts, ARectanglesDefaultRadiusIsTheLeastOfItsPlace) {
