@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 
@@ -35,6 +36,21 @@ constexpr const char* kNarrow = "the beam is as wide as the kerf, and wider on t
 constexpr const char* kTight =
     "the beam cannot follow a tighter corner; corners as_cut accepts what it leaves";
 
+/// Over corners, a prism's lines cross the bore, to each side of an anchor of its own.
+std::vector<Issue> check_open_over(const Bounds& box, const SectionLay& over) {
+  const auto reach = over.reach();
+  const double more = box.most.y() - (reach.most.y() - kInside);
+  const double less = reach.least.y() + kInside - box.least.y();
+  if (more <= 0.0 && less <= 0.0) return {};
+  return {{.code = ErrorCode::open_profile,
+           .member = "shape",
+           .got = more > less ? box.most.y() : -box.least.y(),
+           .limit = rounded_down((more > less ? reach.most.y() : -reach.least.y()) - kInside),
+           .unit = "mm",
+           .hint = "to one side of its anchor it reaches beyond the bore, seen along the anchor's "
+                   "normal; lay it on the wall by wall developed, or make it less wide"}};
+}
+
 struct Sizes {
   const Spec& spec;
   const Laying& laying;
@@ -42,6 +58,13 @@ struct Sizes {
 
   /// Twice the least radius: what a shape is wide at least.
   [[nodiscard]] double width(double b) const { return 2.0 * least_radius(laying, kerf, b); }
+  /// The same of one that reaches so far. Beyond the bore no beam follows it.
+  [[nodiscard]] double width(const Bounds& box) const {
+    const bool over = laying.over() != nullptr && laying.lay() == Lay::bored;
+    return over && !check_open_over(box, *laying.over()).empty()
+               ? std::numeric_limits<double>::infinity()
+               : width(box.most.y());
+  }
   [[nodiscard]] bool prism() const { return laying.parallel(); }
 
   /// Returns the issue of a shape that is wide enough near its middle, but reaches so near the
@@ -69,25 +92,27 @@ struct Sizes {
   std::vector<Issue> operator()(const Circle& c) const {
     if (auto out = near_bore(0.5 * c.diameter, c.diameter); !out.empty()) return out;
     std::vector<Issue> out;
-    at_least(c.diameter, width(0.5 * c.diameter), !prism(), "shape/diameter", kNarrow, out);
+    at_least(c.diameter, width(bounds(circle(c.diameter))), !prism(), "shape/diameter", kNarrow,
+             out);
     return out;
   }
   std::vector<Issue> operator()(const Slot& s) const {
     std::vector<Issue> out;
     at_least(s.length, s.width, true, "shape/length", "over all, so at least the width", out);
-    const auto chain = turned(slot(std::max(s.length, s.width), s.width), spec.turn);
-    if (auto near = near_bore(bounds(chain).most.y(), s.width); !near.empty()) return near;
-    at_least(s.width, width(bounds(chain).most.y()), !prism(), "shape/width", kNarrow, out);
+    const auto box = bounds(turned(slot(std::max(s.length, s.width), s.width), spec.turn));
+    if (auto near = near_bore(box.most.y(), s.width); !near.empty()) return near;
+    at_least(s.width, width(box), !prism(), "shape/width", kNarrow, out);
     return out;
   }
   std::vector<Issue> operator()(const Rectangle& r) const {
     std::vector<Issue> out;
-    const auto box = bounds(turned(rectangle(r.along, r.round, 0.0), spec.turn));
-    if (auto near = near_bore(box.most.y(), std::min(r.along, r.round)); !near.empty()) return near;
-    const double least = width(box.most.y());
+    const double most = 0.5 * std::min(r.along, r.round);
+    const auto box =
+        bounds(turned(rectangle(r.along, r.round, std::min(r.radius, most)), spec.turn));
+    if (auto near = near_bore(box.most.y(), 2.0 * most); !near.empty()) return near;
+    const double least = width(box);
     at_least(r.along, least, !prism(), "shape/along", kNarrow, out);
     at_least(r.round, least, !prism(), "shape/round", kNarrow, out);
-    const double most = 0.5 * std::min(r.along, r.round);
     if (r.radius > most)
       out.push_back({.code = ErrorCode::out_of_range,
                      .member = "shape/corner_radius",
@@ -179,25 +204,6 @@ std::vector<Issue> check_sizes(const Spec& spec, const Laying& laying, double ke
   }
   return std::visit(Sizes{spec, laying, kerf}, spec.shape);
 }
-
-namespace {
-
-/// Over corners, a prism's lines cross the bore, to each side of an anchor of its own.
-std::vector<Issue> check_open_over(const Bounds& box, const SectionLay& over) {
-  const auto reach = over.reach();
-  const double more = box.most.y() - (reach.most.y() - kInside);
-  const double less = reach.least.y() + kInside - box.least.y();
-  if (more <= 0.0 && less <= 0.0) return {};
-  return {{.code = ErrorCode::open_profile,
-           .member = "shape",
-           .got = more > less ? box.most.y() : -box.least.y(),
-           .limit = rounded_down((more > less ? reach.most.y() : -reach.least.y()) - kInside),
-           .unit = "mm",
-           .hint = "to one side of its anchor it reaches beyond the bore, seen along the anchor's "
-                   "normal; lay it on the wall by wall developed, or make it less wide"}};
-}
-
-}  // namespace
 
 std::vector<Issue> check_open(const Chain& chain, const Laying& laying) {
   const auto box = bounds(chain);

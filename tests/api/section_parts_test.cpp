@@ -245,6 +245,27 @@ TEST(SectionPartCutouts, ARectanglesDefaultRadiusIsTheLeastOfItsPlace) {
     }
 }
 
+/// A radius that nobody gave is never at fault: a turned square is cut, or told its true cause.
+TEST(SectionPartCutouts, ADefaultRadiusIsNeverRefused) {
+  std::size_t cut = 0, open = 0;
+  for (const char* tilt : {"axial", "free"})
+    for (const double angle : {30.0, 60.0})
+      for (double girth = 12.0; girth < 24.0; girth += 0.25) {
+        auto body = parsed(R"({"target": {"size": "SHS 40x40x3 EN 10219", "length_mm": 400},
+            "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}}, "kerf_mm": 1.5,
+            "cutouts": [{"id": "c", "shape": {"kind": "rectangle", "along_mm": 12, "round_mm": 12},
+                         "at": {"z_mm": 200}}]})");
+        body = with(with(std::move(body), "cutouts/0/at/girth_mm", girth), "cutouts/0/tilt", tilt);
+        const auto answer = post(kParts, with(std::move(body), "cutouts/0/shape/angle_deg", angle));
+        ++(answer.outcome.error ? open : cut);
+        if (!answer.outcome.error) continue;
+        EXPECT_EQ(text(answer.body, "errors/0/code"), "open_profile")
+            << girth << tilt << answer.outcome.body.substr(0, 600);
+      }
+  EXPECT_GT(cut, 40u);
+  EXPECT_GT(open, 20u);
+}
+
 TEST(SectionPartCutouts, AllOfThemAreInEveryFile) {
   auto body = with_cutout(
       R"({"id": "bolt", "shape": {"kind": "circle", "diameter_mm": 11},

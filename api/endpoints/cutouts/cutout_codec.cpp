@@ -62,8 +62,9 @@ double default_radius(const Common& common, const cutout::Spec& spec, const cuto
   const auto& tube = common.once.target;
   const bool sides = r.along > 0.0 && r.round > 0.0;
   if (spec.as_cut || !sides) return 0.0;
-  const auto chain = turned(cutout::rectangle(r.along, r.round, 0.0), spec.turn);
   const double most = 0.5 * std::min(r.along, r.round), kerf = common.once.kerf;
+  const auto chain =
+      turned(cutout::rectangle(r.along, r.round, std::min(0.5 * kerf, most)), spec.turn);
   if (common.section != nullptr)
     return std::min(cutout::least_corner(spec, chain, section::Wall(*common.section), kerf), most);
   if (!(tube.inner_radius() > 0.0)) return 0.0;
