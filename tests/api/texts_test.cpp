@@ -159,6 +159,21 @@ TEST(Texts, EveryRefusalIsAtItsField) {
             Refusals{"unsupported_combination /texts/0/at/phi_deg"});
 }
 
+/// A control would mark it as it is read: the block of a text has no word for mirrored.
+TEST(Texts, Nc1HasNoneThatIsMirrored) {
+  for (const auto& body : {round_part(list({text_mark(R"(, "mirrored": true)")})),
+                           square_part(list({flat_mark(R"(, "mirrored": true)")}))}) {
+    const auto refused = post(kParts, api::dump(body), "format=nc1");
+    ASSERT_TRUE(refused.outcome.error);
+    EXPECT_EQ(text(refused.body, "errors/0/pointer"), "?format");
+    EXPECT_NE(text(refused.body, "errors/0/hint").find("text t "), std::string::npos);
+    for (const char* other : {"format=dxf", "format=step", "format=csv"})
+      EXPECT_FALSE(post(kParts, api::dump(body), other).outcome.error) << other;
+    const auto plain = without(body, "texts/0/mirrored");
+    EXPECT_FALSE(post(kParts, api::dump(plain), "format=nc1").outcome.error);
+  }
+}
+
 TEST(Texts, AnUnknownLetterIsNamedWithItsSpelling) {
   const auto refused = post(kParts, round_part(list({with(text_mark(), "text",
                                                           Json{"Gr\xC3\xB6\xC3\x9F"

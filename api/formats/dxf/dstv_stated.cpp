@@ -129,10 +129,12 @@ std::string dstv_countersink(const std::string& name, const cutout::Cone& cone) 
 std::string dstv_lettering(const cutout::Lettering& text, std::string_view face, double y,
                            bool up) {
   const auto& spec = text.spec;
+  if (spec.mirrored)
+    throw UnfitOption{"format", "nc1 has no mirrored text, and a control would mark text " +
+                                    spec.id + " as it is read: take dxf, step or gcode"};
   const double turn = spec.turn * kDegPerRad;
   return dstv_comment("text: at x " + stated(text.z) + field("girth", text.s) +
                       field("angle", turn) + field("height", spec.height) +
-                      (spec.mirrored ? "; mirrored" : "") +
                       (spec.over_corner ? "; over corner" : "") + "; id " + dstv_text(spec.id)) +
          "SI\r\n  " + std::string(face) + dstv_field(text.z) + "u" + dstv_field(y) +
          dstv_field(up ? -turn : turn) + dstv_field(spec.height) + " " + spec.text + "\r\n";

@@ -31,7 +31,8 @@ namespace tubecut::api {
 inline constexpr const char* kTextColumns =
     "SI: a text to be marked; x and y where its base line begins, its angle from x to y, height";
 /// Returns the block of a text, with the line that states all of it. `y` of its anchor on the face
-/// and `up`, true if y grows against the girth, are the block's.
+/// and `up`, true if y grows against the girth, are the block's. Throws UnfitOption for a mirrored
+/// text, which the block cannot state.
 [[nodiscard]] std::string dstv_lettering(const cutout::Lettering& text, std::string_view face,
                                          double y, bool up);
 

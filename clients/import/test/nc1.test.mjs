@@ -109,7 +109,7 @@ test('texts come back whole, and a text that a hand changed is listed', async ()
   const ends = {start: {square_at_mm: 0}, finish: {square_at_mm: 0}};
   const own = (at, more) => ({id: 'Ü 1, id 2', at, text: ' a "b" 5; id x', height_mm: 8, ...more});
   for (const [told, target, texts] of [
-    ['round', {outer_diameter_mm: 88.9, wall_mm: 5, length_mm: 600}, [own({z_mm: 60, phi_deg: 300}, {angle_deg: 30}), {...own({z_mm: 200, from: 'finish', girth_mm: 12}, {mirrored: true}), id: 'b'}]],
+    ['round', {outer_diameter_mm: 88.9, wall_mm: 5, length_mm: 600}, [own({z_mm: 60, phi_deg: 300}, {angle_deg: 30}), {...own({z_mm: 200, from: 'finish', girth_mm: 12}, {angle_deg: 180}), id: 'b'}]],
     ['square', {kind: 'rectangular_tube', height_mm: 80, width_mm: 60, wall_mm: 4, corner_radius_mm: 8, length_mm: 600}, [own({z_mm: 60, face: 3, offset_mm: 2}), {...own({z_mm: 300, face: 4}, {angle_deg: 60, over_corner: true}), id: 'b'}]],
   ]) {
     const body = {target, ends, texts, kerf_mm: 1};
