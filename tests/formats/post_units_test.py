@@ -197,6 +197,23 @@ class PostUnits(FormatTest):
                     row += 1
             self.assertLessEqual(worst, bound + ROUNDING, (units, turn, decimals))
 
+    def test_a_tube_with_corners_turns_in_revolutions_too(self):
+        """It has no girth of a circle to count a turn by, but a revolution is an angle."""
+        body = {"preset": "tube_laser", "target": {"size": "SHS 60x60x4 EN 10219", "length_mm": 300}, "kerf_mm": 0.3,
+                "ends": {"start": {"square_at_mm": 0}, "finish": {"square_at_mm": 0}},
+                "cutouts": [{"id": "c", "shape": {"kind": "circle", "diameter_mm": 30}, "at": {"z_mm": 150, "face": 1, "offset_mm": 8}}]}
+        query = "format=gcode&speed_mm_min=900&lead_mm=2&pivot_length_mm=0"
+        wanted, minutes = self.plain("parts", body, query)
+        for unit, decimals in (("revolution", 8), ("deg", 5)):
+            axes = self.document["axes"] | {"turn": {"letter": "A", "unit": unit, "decimals": decimals}}
+            post = self.document | {"name": "own", "axes": axes}
+            self.held(self.program("parts", body, query, post), wanted, minutes, post, 30, None)
+        for unit in ("mm_girth", "inch_girth"):
+            post = self.document | {"name": "own", "axes": self.document["axes"] | {"turn": {"letter": "A", "unit": unit, "decimals": 5}}}
+            status, _, content = self.service.ask("parts", body, f"{query}&post={quote(json.dumps(post))}")
+            self.assertNotEqual(status, 200)
+            self.assertIn("along its circumference", json.loads(content)["errors"][0]["hint"])
+
     def test_the_head_is_in_the_unit_of_the_post(self):
         body = examples("parts")["chord-with-holes"]
         mm, inch = self.service.text("parts", body, DARK).decode(), self.program("parts", body, DARK, self.inch)

@@ -52,10 +52,10 @@ TorchJoints::TorchJoints(double outer_radius, const std::optional<section::Secti
       throw UnfitOption{"pivot_length_mm",
                         "the height of the wall under the torch changes, so the program moves it: "
                         "give the length, 0 if the axes carry the tip"};
-    if (turn_.unit != TurnUnit::deg)
+    if (turn_.is_girth())
       throw UnfitOption{"post", "post " + post.name +
                                     " counts the turn of a round tube along its circumference; "
-                                    "take a post whose turn is in deg"};
+                                    "take a post whose turn is in deg or revolution"};
   }
   if (options.axial_z) std::swap(along_.letter, out_.letter);
   turn_ = turn_.on_tube(outer_radius);
