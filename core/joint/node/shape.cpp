@@ -12,7 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kPlaces = 128;  // of an edge
+constexpr int kPlaces = 128;         // of an edge
+constexpr double kLeastFlat = 1e-3;  // mm: half a flat; less is by rounding of the sizes
 
 Vector3d axis_of(const Member& m) { return (m.finish - m.start).normalized(); }
 
@@ -173,10 +174,18 @@ double bore_support(const Member& member, const Vector3d& direction) {
 bool stops_bore(const Member& chord, const Member& branch, const Across& at) {
   return at.apart + bore_support(branch, at.normal) <= support(chord, at.normal);
 }
-/// Returns true if the branch's axis meets a face that is square to the plane of both.
+/// Returns true if a direction square to the section lies along its height, not along its width.
+bool is_along_height(const Member& member, const Vector3d& direction) {
+  return std::abs(height_of(member).dot(direction)) > 0.5;
+}
+/// Returns true if the branch's axis meets a face that is square to the plane of both. A half-round
+/// edge of a flat oval is no face, because it has no flat.
 bool meets_face(const Member& chord, const Across& at) {
-  return chord.section && is_square_to(chord, at.normal) &&
-         at.apart < support(chord, at.normal) - chord.section->corner;
+  if (!chord.section || !is_square_to(chord, at.normal)) return false;
+  const auto& s = *chord.section;
+  // By the sizes, because the support of an oval that is turned by rounding exceeds its radius.
+  const double flat = 0.5 * (is_along_height(chord, at.normal) ? s.height : s.width) - s.corner;
+  return flat > kLeastFlat && at.apart < flat;
 }
 
 }  // namespace
@@ -193,8 +202,7 @@ Member as_met(const Member& chord, const Member& branch) {
   if (!at || stops_bore(chord, branch, *at) || !meets_face(chord, *at)) return out;
   // Of the sizes only, so that equal branches get equal faces.
   const double wide = 2.0 * (chord.reach() + 2.0 * branch.reach());
-  const bool along_height = std::abs(height_of(chord).dot(at->normal)) > 0.5;
-  (along_height ? out.section->height : out.section->width) = wide;
+  (is_along_height(chord, at->normal) ? out.section->height : out.section->width) = wide;
   out.section->corner = kSharpCorner;
   return out;
 }

@@ -1,0 +1,126 @@
+// Laws of frames: a model that is turned, mirrored or written with three decimals has the parts,
+// marks and refusals of the model as it was drawn.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/base/angle.hpp"
+#include "core/section/section.hpp"
+#include "tests/support/call.hpp"
+
+namespace tubecut::testing::turned_frames {
+
+using api::Json;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr const char* kFrames = "/v1/frames";
+
+struct Bar {
+  std::string id;
+  Vector3d start, finish, up;
+  std::string tube;  // its fields
+  int priority = 0;
+};
+
+/// How a model is placed in the world: turned, moved, and its coordinates rounded.
+struct Place {
+  Matrix3d turn = Matrix3d::Identity();
+  Vector3d shift = Vector3d::Zero();
+  bool rounded = false;
+
+  [[nodiscard]] Json point(const Vector3d& drawn) const {
+    const Vector3d at = turn * drawn + shift;
+    return rounded ? numbers((1e3 * at).array().round() / 1e3) : numbers(at);
+  }
+  [[nodiscard]] static Json numbers(const Vector3d& v) {
+    return Json{Json::Array{Json{v.x()}, Json{v.y()}, Json{v.z()}}};
+  }
+};
+
+Place in_plan(double degrees, bool rounded) {
+  return {.turn = Eigen::AngleAxisd(degrees * kRadPerDeg, Vector3d::UnitZ()).matrix(),
+          .shift = {100, 200, 0},
+          .rounded = rounded};
+}
+
+constexpr const char* kShs20 =
+    R"("kind": "rectangular_tube", "height_mm": 20, "width_mm": 20, "wall_mm": 2,
+       "corners": "en_10219")";
+constexpr const char* kShs30 =
+    R"("kind": "rectangular_tube", "height_mm": 30, "width_mm": 30, "wall_mm": 2,
+       "corners": "en_10219")";
+constexpr const char* kShs40 =
+    R"("kind": "rectangular_tube", "height_mm": 40, "width_mm": 40, "wall_mm": 3,
+       "corners": "en_10219")";
+
+/// `once`: fields that are given once.
+Json frame(const std::vector<Bar>& bars, const Place& place, const std::string& once) {
+  auto out = *api::parse("{" + once + R"(, "connect": {"within_mm": 5}})");
+  Json::Array members;
+  for (const auto& bar : bars) {
+    auto member = *api::parse("{" + bar.tube + "}");
+    member = with(member, "id", Json{bar.id});
+    member = with(member, "start_mm", place.point(bar.start));
+    member = with(member, "end_mm", place.point(bar.finish));
+    if (bar.up.norm() > 0.0) member = with(member, "up", Place::numbers(place.turn * bar.up));
+    members.push_back(with(member, "priority", Json{static_cast<double>(bar.priority)}));
+  }
+  return with(out, "members", Json{std::move(members)});
+}
+
+constexpr const char* kLaser =
+    R"("preset": "tube_laser", "kerf_mm": 0.2, "sampling": {"tolerance_mm": 0.05})";
+
+Json answered(const Json& asked) {
+  const auto answer = post(kFrames, asked);
+  EXPECT_FALSE(answer.outcome.error) << answer.outcome.body.substr(0, 800);
+  return answer.body;
+}
+
+using Groups = std::set<std::set<std::string>>;
+Groups groups_of(const Json& answer) {
+  Groups out;
+  for (const auto& row : *at(answer, "result/cut_list").as<Json::Array>()) {
+    std::set<std::string> one;
+    for (const auto& id : *at(row, "members").as<Json::Array>()) one.insert(*id.as<std::string>());
+    out.insert(std::move(one));
+  }
+  return out;
+}
+
+/// The details of the answer's warnings of a code.
+std::vector<std::string> warned(const Json& answer, std::string_view code) {
+  std::vector<std::string> out;
+  for (const auto& one : *at(answer, "warnings").as<Json::Array>())
+    if (text(one, "code") == code) out.push_back(text(one, "detail"));
+  return out;
+}
+
+/// The half-round edge of a flat oval has no flat, so a post that is wider than it is no flat end
+/// on a face: the same refusal in every orientation.
+TEST(TurnedFrames, TheEdgeOfAFlatOvalIsNoFace) {
+  const std::string oval =
+      R"("kind": "flat_oval_tube", "height_mm": 60, "width_mm": 30, "wall_mm": 2)";
+  const std::vector<Bar> bars{{"rail", {-500, 0, 0}, {500, 0, 0}, {0, 0, 1}, oval, 0},
+                              {"post", {0, 0, 0}, {0, 0, 500}, {0, 1, 0}, kShs40, 1}};
+  std::vector<Place> places;
+  for (int i = 0; i < 30; ++i) places.push_back(in_plan(12.0 * i, i % 3 == 1));
+  for (int i = 0; i < 30; ++i) {
+    const Vector3d axis = Vector3d(std::sin(1.0 + i), std::cos(2.0 * i), std::sin(3.0 * i));
+    places.push_back({.turn = Eigen::AngleAxisd(0.4 * i, axis.normalized()).matrix()});
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto why = warned(answered(frame(bars, places[i], kLaser)), "no_part");
+    ASSERT_EQ(why.size(), 1u) << i;
+    EXPECT_TRUE(why[0].starts_with("post: open_profile")) << i << " " << why[0];
+  }
+}
+
+}  // namespace tubecut::testing::turned_frames
