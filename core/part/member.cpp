@@ -19,6 +19,8 @@
 namespace tubecut::part {
 namespace {
 
+constexpr double kAcross = 1e-12;  // of a direction: less runs along the tube
+
 using Eigen::Vector3d;
 using joint::AxisLine;
 using joint::End;
@@ -73,6 +75,22 @@ Result<std::pair<MemberFrame, MemberFrame>> frames(const joint::Member& m, const
   return std::pair{first, last};
 }
 
+/// The place where a line leaves an outline: s, and how far along the line.
+struct Leaving {
+  double s = 0.0, way = 0.0;
+};
+/// Returns where a line that leaves the square corner beyond a face's flat leaves the arc; one that
+/// passes beside the arc counts as leaving it where it is nearest, so that the place does not jump.
+Leaving leaving_corner(const section::Curve& outer, int corner, const AxisLine& line) {
+  const Eigen::Vector2d d = line.direction.head<2>(), u = d.normalized();
+  const Eigen::Vector2d from = line.point.head<2>() - outer.corner_centre(corner);
+  const double along = from.dot(u), beside = from.squaredNorm() - along * along;
+  const double way = std::sqrt(std::max(0.0, outer.corner() * outer.corner() - beside)) - along;
+  const Eigen::Vector2d at = from + way * u, n = section::Curve::face_normal(corner);
+  const double turn = elementary::atan2(n.x() * at.y() - n.y() * at.x(), n.dot(at));
+  return {outer.on_corner(corner, std::clamp(turn, 0.0, 0.5 * kPi)), way / d.norm()};
+}
+
 }  // namespace
 
 Mark mark_of(const joint::Member& branch, joint::End end, const MemberFrame& frame, double radius) {
@@ -98,18 +116,21 @@ SectionMark mark_of(const joint::Member& branch, joint::End end, const MemberFra
   for (int face = 1; face <= 4; ++face) {
     const Eigen::Vector2d n = section::Curve::face_normal(face);
     const double towards = n.dot(d.head<2>());
-    if (!(towards > 1e-12)) continue;
+    if (!(towards > kAcross)) continue;
     const double there =
         std::max(0.0, (outer.face_distance(face) - n.dot(line.point.head<2>())) / towards);
     if (!(there < way)) continue;
     way = there;
     out = face;
   }
-  const Vector3d place = line.point + (std::isfinite(way) ? way : 0.0) * d;
+  if (!std::isfinite(way)) way = 0.0;
   const Eigen::Vector2d n = section::Curve::face_normal(out), t(-n.y(), n.x());
-  const double half = outer.half_flat(out);
-  const double along = std::clamp(t.dot(place.head<2>()), -half, half);
-  return {Mark::Kind::partner, branch.name, outer.on_face(out, along), place.z(), place.z()};
+  const double along = t.dot((line.point + way * d).head<2>()), half = outer.half_flat(out);
+  Leaving at{outer.on_face(out, std::clamp(along, -half, half)), way};
+  if (std::abs(along) > half && outer.corner() > 0.0 && d.head<2>().norm() > kAcross)
+    at = leaving_corner(outer, along > 0.0 ? out : (out + 2) % 4 + 1, {line.point, d});
+  const double z = line.point.z() + at.way * d.z();
+  return {Mark::Kind::partner, branch.name, at.s, z, z};
 }
 
 cutout::Branch square_branch(const joint::Member& branch, joint::End end, const MemberFrame& frame,

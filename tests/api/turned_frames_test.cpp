@@ -123,4 +123,58 @@ TEST(TurnedFrames, TheEdgeOfAFlatOvalIsNoFace) {
   }
 }
 
+/// The place along the girth where a rail's axis leaves a post whose height is turned by `degrees`
+/// from the rail, as its part is asked for.
+double mark_of_rail(double degrees) {
+  const double turn = degrees * kRadPerDeg;
+  const std::vector<Bar> bars{
+      {"post", {0, 0, 0}, {0, 0, 650}, {std::cos(turn), std::sin(turn), 0}, kShs30, 0},
+      {"rail", {0, 0, 200}, {500, 0, 200}, {0, 0, 1}, kShs20, 1}};
+  const auto answer = answered(frame(bars, {}, kLaser));
+  for (const auto& part : *at(answer, "parts").as<Json::Array>())
+    if (text(part, "part") == "post") return number(part, "answer/request/marks/0/girth_mm");
+  return -1.0;
+}
+
+/// On a corner the mark follows the axis round the arc, whose middle it passes on the diagonal.
+/// Seen in a mirror, it lies as far on the other side of the datum.
+TEST(TurnedFrames, AMarkFollowsTheAxisRoundACorner) {
+  const auto radii = section::corner_radii(section::Standard::en_10219, 2);
+  const section::Curve outer(30, 30, radii.outer);
+  EXPECT_NEAR(mark_of_rail(45), outer.on_corner(4, 0.25 * kPi), 1e-5);
+  double before = outer.girth();
+  for (double degrees = 30; degrees <= 60; degrees += 1.5) {
+    const double mark = mark_of_rail(degrees);
+    EXPECT_LT(mark, before) << degrees;
+    EXPECT_LT(before < outer.girth() ? before - mark : 0.0, 1.5) << degrees;
+    EXPECT_NEAR(mark_of_rail(-degrees), outer.girth() - mark, 1e-5) << degrees;
+    before = mark;
+  }
+  for (const double near : {44.9999, 45.0001})
+    EXPECT_NEAR(mark_of_rail(near), mark_of_rail(45), 1e-3) << near;
+}
+
+/// A stool whose legs point with a corner to its middle has one leg and one rail.
+TEST(TurnedFrames, ARailOnACornerSplitsNoLegs) {
+  const std::array<Vector3d, 4> corners{Vector3d(0, 0, 0), {400, 0, 0}, {400, 400, 0}, {0, 400, 0}};
+  std::vector<Bar> bars;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector3d next = corners[(i + 1) % 4], up(1, i % 2 == 0 ? 1 : -1, 0);
+    const auto name = std::to_string(i);
+    bars.push_back({"leg" + name, corners[i], corners[i] + Vector3d(0, 0, 650), up, kShs30, 0});
+    bars.push_back({"rail" + name,
+                    corners[i] + Vector3d(0, 0, 200),
+                    next + Vector3d(0, 0, 200),
+                    {0, 0, 1},
+                    kShs20,
+                    1});
+  }
+  const Groups expected{{"leg0", "leg1", "leg2", "leg3"}, {"rail0", "rail1", "rail2", "rail3"}};
+  EXPECT_EQ(groups_of(answered(frame(bars, {}, kLaser))), expected);
+  for (const double degrees : {17.3, 45.0, 121.9})
+    for (const bool rounded : {false, true})
+      EXPECT_EQ(groups_of(answered(frame(bars, in_plan(degrees, rounded), kLaser))), expected)
+          << degrees << rounded;
+}
+
 }  // namespace tubecut::testing::turned_frames
