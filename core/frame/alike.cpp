@@ -24,7 +24,8 @@ using detail::FormWall;
 using detail::near_zero;
 using detail::Side;
 
-constexpr double kWritten = 1e6;  // lengths are compared to six decimals
+constexpr double kWritten = 1e6;       // lengths are compared to six decimals
+constexpr double kMissingStep = 1e-3;  // mm: requests state missing lengths to three decimals
 // Maximum error of a mean over phases if the contour has corners and jumps.
 constexpr double kMeanOff = 0.1, kMeanOffOfRadius = 0.01;  // mm; of the radius
 
@@ -192,7 +193,7 @@ std::optional<Laid> Gatherer::Known::lay(const Shape& member, const Shape& by) {
   const bool stands = member.has_cutouts;
   for (const double turn : stands ? std::vector{0.0} : detail::turns(one, two, within_)) {
     auto laid = detail::resembles(one, two, turn, within_);
-    if (!laid) continue;
+    if (!laid || detail::missing_apart(member, by, *laid) > within_ + kMissingStep) continue;
     const auto found = fit(one, two, *laid);
     if (!found.there || !(found.differs <= within_)) continue;
     const double holes =

@@ -23,8 +23,10 @@ inline constexpr double kLeastAlike = 1e-5;  // mm
 struct Shape {
   std::size_t form = 0;  // index of a requested part; members of one form share it
   std::string key;       // the tube, and how both ends are cut
-  std::vector<std::string> start, finish;  // of each partner
-  std::vector<std::string> holes, marks;   // of each, with the part that is placed there
+  std::vector<std::string> start, finish;             // of each partner
+  std::vector<double> start_missing, finish_missing;  // of each: how far the cut follows it beyond
+                                                      // its metal, mm
+  std::vector<std::string> holes, marks;              // of each, with the part that is placed there
   bool has_cutouts = false;  // or texts or square holes, so a part is only alike as it stands; all
                              // but the places of the holes are in the key
 };

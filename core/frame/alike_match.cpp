@@ -248,6 +248,15 @@ std::optional<Laid> resembles(const Side& member, const Side& by, double turn, d
               .marks = *std::move(marks)};
 }
 
+double missing_apart(const Shape& member, const Shape& by, const Laid& laid) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < laid.start.size(); ++i)
+    worsen(worst, std::abs(member.start_missing[i] - by.start_missing[laid.start[i]]));
+  for (std::size_t i = 0; i < laid.finish.size(); ++i)
+    worsen(worst, std::abs(member.finish_missing[i] - by.finish_missing[laid.finish[i]]));
+  return worst;
+}
+
 double square_holes_apart(const Form& one, const Form& other) {
   const auto& holes = one.part->square_holes;
   const auto& others = other.part->square_holes;

@@ -33,6 +33,10 @@ struct Side {
 [[nodiscard]] std::optional<Laid> resembles(const Side& member, const Side& by, double turn,
                                             double within);
 
+/// Returns the largest difference of how far the cuts follow matching partners beyond their metal;
+/// mm.
+[[nodiscard]] double missing_apart(const Shape& member, const Shape& by, const Laid& laid);
+
 /// Returns the maximum distance of the square holes of two parts, each from the hole of the other
 /// in the same place of the list: a bound by their branches' axes and orientations; mm.
 [[nodiscard]] double square_holes_apart(const Form& one, const Form& other);

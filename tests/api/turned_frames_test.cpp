@@ -177,4 +177,29 @@ TEST(TurnedFrames, ARailOnACornerSplitsNoLegs) {
           << degrees << rounded;
 }
 
+/// The cuts of posts follow the steps below them beyond their ends, by a length that rounding
+/// moves: it splits no parts.
+TEST(TurnedFrames, AMissingLengthIsComparedAsLengthsAre) {
+  const std::string stringer =
+      R"("kind": "rectangular_tube", "height_mm": 80, "width_mm": 40, "wall_mm": 3,
+         "corners": "en_10219")";
+  const std::string round = R"("outer_diameter_mm": 42.4, "wall_mm": 2.6)";
+  std::vector<Bar> bars{{"stringer", {0, 0, 0}, {1200, 0, 864}, {0, 0, 1}, stringer, 0}};
+  for (const double x : {250.0, 1000.0}) {
+    const Vector3d on(x, 0, 0.72 * x);
+    const auto name = x < 500 ? "1" : "2";
+    bars.push_back(
+        {std::string("step") + name, on, on + Vector3d(0, 800, 0), {0, 0, 1}, kShs40, 2});
+    bars.push_back(
+        {std::string("post") + name, on, on + Vector3d(0, 0, 900), Vector3d::Zero(), round, 3});
+  }
+  const auto drawn = answered(frame(bars, {}, kLaser));
+  EXPECT_EQ(warned(drawn, "ghost_contact").size(), 2u);
+  const Groups expected{{"stringer"}, {"step1", "step2"}, {"post1", "post2"}};
+  EXPECT_EQ(groups_of(drawn), expected);
+  for (int i = 0; i < 16; ++i)
+    EXPECT_EQ(groups_of(answered(frame(bars, in_plan(22.5 * i - 1.0, true), kLaser))), expected)
+        << i;
+}
+
 }  // namespace tubecut::testing::turned_frames

@@ -41,20 +41,26 @@ std::string partner_key(const Json& partner) {
   return dump(round ? without(partner, kRound) : without(partner, kOther));
 }
 
-/// Returns the cut of the end, and the type and joint of each partner.
-std::string end_key(const Json& end, std::vector<std::string>& partners) {
+/// Returns the cut of the end, and of each partner its type and joint, and how far the cut follows
+/// it beyond its metal: a length, which rounded coordinates move.
+std::string end_key(const Json& end, std::vector<std::string>& partners,
+                    std::vector<double>& missing) {
   static constexpr std::array<std::string_view, 2> kPlaced{"cutters", "joints"};
-  static constexpr std::array<std::string_view, 1> kIndex{"cutter"};
+  static constexpr std::array<std::string_view, 2> kCompared{"cutter", "missing_mm"};
   const auto* cutters = end.find("cutters");
   const auto* joints = end.find("joints");
   if (cutters == nullptr) {
     partners.emplace_back();  // square
+    missing.push_back(0.0);
     return dump(end);
   }
   for (const auto& one : *cutters->as<Json::Array>()) partners.push_back(partner_key(one));
-  for (const auto& one : *joints->as<Json::Array>())
-    partners[static_cast<std::size_t>(*one.find("cutter")->as<double>())] +=
-        dump(without(one, kIndex));
+  missing.resize(partners.size());
+  for (const auto& one : *joints->as<Json::Array>()) {
+    const auto cutter = static_cast<std::size_t>(*one.find("cutter")->as<double>());
+    partners[cutter] += dump(without(one, kCompared));
+    if (const auto* far = one.find("missing_mm")) missing[cutter] = *far->as<double>();
+  }
   return dump(without(end, kPlaced));
 }
 
@@ -80,8 +86,8 @@ frame::Shape shape_of(const Json& part) {
   frame::Shape out;
   out.key = dump(without(*part.find("target"), kLength));
   const auto& ends = *part.find("ends");
-  out.key += end_key(*ends.find("start"), out.start);
-  out.key += end_key(*ends.find("finish"), out.finish);
+  out.key += end_key(*ends.find("start"), out.start, out.start_missing);
+  out.key += end_key(*ends.find("finish"), out.finish, out.finish_missing);
   for (const auto* end : {"start", "finish"})  // tabs are on numbered faces, as cut-outs are
     out.has_cutouts = out.has_cutouts || ends.find(end)->find("end_tabs") != nullptr;
   for (const auto* name : {"cutouts", "texts"})
