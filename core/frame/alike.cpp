@@ -25,6 +25,8 @@ using detail::near_zero;
 using detail::Side;
 
 constexpr double kWritten = 1e6;       // lengths are compared to six decimals
+constexpr double kAtEvent = 2e-9;      // rad: a phase this near an event may lie on either side
+constexpr double kLeastJump = 1e-3;    // mm: less may be a kink of what differs
 constexpr double kMissingStep = 1e-3;  // mm: requests state missing lengths to three decimals
 // Maximum error of a mean over phases if the contour has corners and jumps.
 constexpr double kMeanOff = 0.1, kMeanOffOfRadius = 0.01;  // mm; of the radius
@@ -42,6 +44,46 @@ std::vector<std::string> key_of(const Shape& shape) {
   return out;
 }
 
+/// Returns for each phase how far apart in phase the events are that it lies between: beyond the
+/// event of one line, and before that of the other. NaN if it lies between none.
+std::vector<double> between_events(const FormWall::Line& one, const FormWall::Line& other) {
+  const auto n = one.z.size();
+  const double step = kTwoPi / static_cast<double>(n);
+  std::vector<double> out(n, std::numeric_limits<double>::quiet_NaN());
+  for (const double event : one.events)
+    for (const double same : other.events) {
+      const double apart = near_zero(same - event);
+      if (!(std::abs(apart) < step)) continue;
+      const auto k = std::llround((event + 0.5 * apart) / step);
+      const double way = std::abs(near_zero(static_cast<double>(k) * step - event - 0.5 * apart));
+      auto& known = out[static_cast<std::size_t>(k) % n];
+      if (way <= 0.5 * std::abs(apart) + kAtEvent && !(known <= std::abs(apart)))
+        known = std::abs(apart);
+    }
+  return out;
+}
+
+/// Compares as curves where one line has jumped at a phase and the other has not yet: they are as
+/// far apart there as their jumps are around the tube, and along it as beside them.
+void follow_jumps(const FormWall::Line& one, const FormWall::Line& other, std::vector<double>& r,
+                  std::vector<double>& a) {
+  const auto n = a.size();
+  const auto apart = between_events(one, other);
+  const auto beside = [&](std::size_t i, std::size_t step) {
+    auto out = (i + step) % n;
+    while (out != i && !std::isnan(apart[out])) out = (out + step) % n;
+    return out;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (std::isnan(apart[i])) continue;
+    const double along = 0.5 * (a[beside(i, n - 1)] + a[beside(i, 1)]),
+                 round = one.radius * apart[i];
+    if (std::abs(a[i] - along) <= std::max(round, kLeastJump)) continue;
+    a[i] = along;
+    r[i] = round;
+  }
+}
+
 /// Distances from points of one wall to those of another: around the tube and along it.
 struct Ways {
   std::vector<double> round, along;
@@ -56,6 +98,7 @@ struct Ways {
       a[i] = one.z[i] - other.z[i];
       if (!one.phi.empty()) r[i] = one.radius * near_zero(one.phi[i] - other.phi[i]);
     }
+    if (one.phi.empty()) follow_jumps(one, other, r, a);
     for (std::size_t i = 0; i < n; ++i) {
       const auto before = (i + n - 1) % n, after = (i + 1) % n;
       // For a smooth curve, an eighth of the second difference is enough.

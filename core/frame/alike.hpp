@@ -64,7 +64,8 @@ struct AlikeGroup {
 ///
 /// The finished walls are compared edge by edge at equal phases: kAlikePhases at each end, half as
 /// many at each hole, and the positions of the marks. Second differences bound the difference
-/// between two phases. The sampling's own rows do not matter.
+/// between two phases. Where an edge jumps, two of them differ by the distance of their jumps, not
+/// by the jumps' height. The sampling's own rows do not matter.
 ///
 /// The groups depend neither on the order of the shapes nor on the position of the frame, because
 /// each group is gathered around the one that is in the middle by length between both cuts.

@@ -54,13 +54,35 @@ bevel::TableSpec on_phases(bevel::TableSpec cut, Angle turn) {
   return cut;
 }
 
-/// Adds the edges of a table; those of a finish in the start's frame.
+/// Returns the phases of a cut's events on both walls.
+std::vector<double> events_of(const bevel::Table& table) {
+  std::vector<double> out;
+  for (const auto* events : {&table.inner_events, &table.outer_events})
+    for (const auto& event : *events) out.push_back(event.phi);
+  return out;
+}
+/// The same of a section: by the place outside that lies on the normal of an event's place.
+std::vector<double> events_of(const bevel::SectionTable& table, const section::Section& section) {
+  const auto outer = section.outer(), bore = section.bore();
+  std::vector<double> out;
+  for (const auto& event : table.inner_events) {
+    const auto at = bore.at(event.s);
+    const double s =
+        at.on_corner ? outer.on_corner(at.face, at.along) : outer.on_face(at.face, at.along);
+    out.push_back(kTwoPi * s / table.girth);
+  }
+  for (const auto& event : table.outer_events) out.push_back(kTwoPi * event.s / table.girth);
+  return out;
+}
+
+/// Adds the edges of a table with these events; those of a finish in the start's frame.
 template <class Table>
-bool add_edges(const Result<Table>& table, std::optional<double> length, FormWall& out) {
-  if (!table || table->z_outer.size() != kAlikePhases) return false;
-  for (const auto* z : {&table->z_inner, &table->z_face, &table->z_outer}) {
+bool add_edges(const Table& table, const std::vector<double>& events, double radius,
+               std::optional<double> length, FormWall& out) {
+  if (table.z_outer.size() != kAlikePhases) return false;
+  for (const auto* z : {&table.z_inner, &table.z_face, &table.z_outer}) {
     if (z->empty()) continue;  // if there is no land
-    auto& line = out.ends.emplace_back();
+    auto& line = out.ends.emplace_back(FormWall::Line{.events = events, .radius = radius});
     for (const double one : *z) line.z.push_back(length ? *length - one : one);
   }
   return true;
@@ -69,8 +91,13 @@ bool add_edges(const Result<Table>& table, std::optional<double> length, FormWal
 bool add_end(const Form& form, const bevel::TableSpec& cut, Angle turn,
              std::optional<double> length, FormWall& out) {
   const auto asked = on_phases(cut, turn);
-  if (form.section) return add_edges(bevel::section_table(*form.section, asked), length, out);
-  return add_edges(bevel::table(asked), length, out);
+  const double radius = form.part->target.outer_radius;
+  if (form.section) {
+    const auto table = bevel::section_table(*form.section, asked);
+    return table && add_edges(*table, events_of(*table, *form.section), radius, length, out);
+  }
+  const auto table = bevel::table(asked);
+  return table && add_edges(*table, events_of(*table), radius, length, out);
 }
 
 bool add_hole(bevel::HoleSpec asked, Angle turn, FormWall& out) {
@@ -82,8 +109,9 @@ bool add_hole(bevel::HoleSpec asked, Angle turn, FormWall& out) {
   auto& lines = out.holes.emplace_back();
   for (const auto& hole : cut->holes) {
     if (hole.phi.size() != kAlikePhases / 2) return false;
-    lines.push_back({hole.z, hole.phi, asked.chord.outer_radius});
-    lines.push_back({hole.z_inner, hole.phi_inner, asked.chord.inner_radius()});
+    lines.push_back({.z = hole.z, .phi = hole.phi, .radius = asked.chord.outer_radius});
+    lines.push_back(
+        {.z = hole.z_inner, .phi = hole.phi_inner, .radius = asked.chord.inner_radius()});
   }
   return true;
 }

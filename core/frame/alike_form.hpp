@@ -42,8 +42,9 @@ struct Form {
 /// also phi.
 struct FormWall {
   struct Line {
-    std::vector<double> z, phi;
-    double radius = 0.0;  // only of a hole
+    std::vector<double> z, phi;       // phi: only of a hole
+    std::vector<double> events = {};  // of an end: phases where z or its slope may jump
+    double radius = 0.0;
   };
   std::vector<Line> ends;                // of the start, then of the finish, from the bore out
   std::vector<std::vector<Line>> holes;  // of each hole

@@ -202,4 +202,31 @@ TEST(TurnedFrames, AMissingLengthIsComparedAsLengthsAre) {
         << i;
 }
 
+/// Where one mitre plane takes over from another, B jumps: the rounded seats of a tripod jump at
+/// phases that differ by 1e-4 deg, and are one part.
+TEST(TurnedFrames, EdgesThatJumpElsewhereDifferByTheDistanceOfTheJumps) {
+  const std::string tube = R"("outer_diameter_mm": 26.9, "wall_mm": 2.3)";
+  std::vector<Bar> bars;
+  const auto corner = [](int i) {
+    return Vector3d(120 * std::cos(2.0 * kPi * i / 3), 120 * std::sin(2.0 * kPi * i / 3), 0);
+  };
+  const Vector3d above(0, 0, 650);
+  for (int i = 0; i < 3; ++i) {
+    const auto name = std::to_string(i);
+    bars.push_back({"leg" + name, corner(i), corner(i) + above, Vector3d::Zero(), tube});
+    bars.push_back(
+        {"seat" + name, corner(i) + above, corner(i + 1) + above, Vector3d::Zero(), tube});
+  }
+  const std::string torch = R"("kerf_mm": 1, "sampling": {"tolerance_mm": 0.05},
+      "defaults": {"root_surface": "inner", "groove": {"rule": "half_dihedral"},
+                   "smoothing": {"method": "none"}})";
+  const Groups expected{{"leg0", "leg1", "leg2"}, {"seat0", "seat1", "seat2"}};
+  for (int i = 0; i < 10; ++i) {
+    const auto answer = answered(frame(bars, in_plan(36.0 * i + 5.0, i > 0), torch));
+    EXPECT_EQ(groups_of(answer), expected) << i;
+    for (const auto& row : *at(answer, "result/cut_list").as<Json::Array>())
+      EXPECT_LE(number(row, "differs_at_most_mm"), 0.02) << i;
+  }
+}
+
 }  // namespace tubecut::testing::turned_frames
