@@ -254,8 +254,7 @@ Renamings renamings(const PartRequest& r) {
     if (r.member) out.push_back({at + "branch", at + "member", false});
   }
   const auto* branch = r.member ? "/member" : "/branch";
-  const auto& cutouts = r.section ? r.of_section.cutouts : r.part.cutouts;
-  for (const auto& one : cutouts.holes)
+  for (const auto& one : r.cutouts().holes)
     out.push_back(
         {cutout::path_of(one.cutout), "holes/" + std::to_string(one.hole.asked) + branch, false});
   for (const auto& one : r.part.square_holes) {
@@ -388,7 +387,7 @@ Result<PartRequest> resolve(PartRequest r) {
 }
 
 Error on_request(const PartRequest& request, Error error) {
-  return renamed(std::move(error), renamings(request));
+  return renamed(on_branches(std::move(error), request.cutouts()), renamings(request));
 }
 
 std::vector<Warning> on_request(const PartRequest& request, std::vector<Warning> warnings) {

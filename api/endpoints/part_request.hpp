@@ -26,6 +26,10 @@ struct PartRequest {
   [[nodiscard]] bool seam_known() const {
     return (member ? member->datum : datum) == part::Datum::seam;
   }
+  /// Once resolved, with those of the branches' holes.
+  [[nodiscard]] const part::CutoutSpecs& cutouts() const {
+    return section ? of_section.cutouts : part.cutouts;
+  }
   // Once resolved, of a node:
   std::vector<std::size_t> start_cutters = {}, finish_cutters = {};
   std::vector<std::string> start_ids = {}, finish_ids = {};

@@ -241,15 +241,19 @@ Result<std::vector<AxisRow>> Maker::make() {
     runs.push_back(run(s));
     auto& last = runs.back();
     if (last.lost && !cutting_.as_cut)
-      return fail({.code = ErrorCode::out_of_range,
-                   .member = "pieces/" + std::to_string(last.piece),
-                   .got = s.radius,
-                   .limit = laying_.over() != nullptr
-                                ? least_of(s)
-                                : least_radius(laying_, cutting_.kerf,
-                                               std::max(std::abs(s.from.y()), std::abs(s.to.y()))),
-                   .unit = "mm",
-                   .hint = "a hollow tighter than the kerf; corners as_cut accepts it"});
+      return fail(
+          {.code = ErrorCode::out_of_range,
+           .member = "pieces/" + std::to_string(last.piece),
+           .got = s.radius,
+           .limit = laying_.over() != nullptr
+                        ? least_of(s)
+                        : least_radius(laying_, cutting_.kerf,
+                                       std::max(std::abs(s.from.y()), std::abs(s.to.y()))),
+           .unit = "mm",
+           .hint =
+               "a hollow tighter than the beam: its least radius is half the kerf, and more where "
+               "the wall bends, because the beam, square to it, takes more of the bore; corners "
+               "as_cut accepts it"});
     if (!last.lost) live.push_back(runs.size() - 1);
   }
   if (live.empty())

@@ -229,4 +229,25 @@ TEST(TurnedFrames, EdgesThatJumpElsewhereDifferByTheDistanceOfTheJumps) {
   }
 }
 
+/// A joint has no fields of a cut-out, so the refusal of its hole names what a joint has; the ways
+/// that it names lead to a part.
+TEST(TurnedFrames, TheHintOfAJointsHoleCanBeFollowed) {
+  const auto shs = [](const std::string& side) {
+    return R"("kind": "rectangular_tube", "wall_mm": 4, "corners": "en_10210", "height_mm": )" +
+           side + R"(, "width_mm": )" + side;
+  };
+  const auto ladder = [&](const std::string& rung, const std::string& kind) {
+    const std::vector<Bar> bars{{"stile", {0, 0, 0}, {0, 0, 2000}, {0, 1, 0}, shs("60"), 0},
+                                {"rung", {0, 0, 200}, {500, 0, 200}, {0, 0, 1}, shs(rung), 1}};
+    return answered(frame(bars, {}, kLaser + (R"(, "defaults": {"kind": ")" + kind + R"("})")));
+  };
+  const auto why = warned(ladder("60", "set_in"), "no_part");
+  ASSERT_EQ(why.size(), 1u);
+  EXPECT_EQ(why[0].find("wall by wall"), std::string::npos) << why[0];
+  for (const auto* way : {"set_on", "a narrower branch"})
+    EXPECT_NE(why[0].find(way), std::string::npos) << why[0];
+  EXPECT_TRUE(warned(ladder("60", "set_on"), "no_part").empty());
+  EXPECT_TRUE(warned(ladder("40", "set_in"), "no_part").empty());
+}
+
 }  // namespace tubecut::testing::turned_frames

@@ -1,5 +1,9 @@
 #include "api/endpoints/cutouts/square_hole.hpp"
 
+#include <algorithm>
+#include <string>
+
+#include "api/endpoints/frames/renaming.hpp"
 #include "api/endpoints/hole_codec.hpp"
 #include "api/endpoints/section_target.hpp"
 #include "api/limits.hpp"
@@ -54,6 +58,22 @@ void decode_section_branch(Reader& in, part::SquareHole& out) {
         in.find("up"));
 }
 
+/// Replaces the hint of a cut-out that a branch's hole became.
+void advise(Issue& issue) {
+  const std::string others =
+      "set the branch on (joint kind set_on, without a hole), or set it on and give the tube a "
+      "cut-out of its own there (cutouts)";
+  if (issue.code == ErrorCode::open_profile)
+    issue.hint =
+        "the hole of this branch reaches beyond the tube's bore; take a narrower branch, " + others;
+  if (issue.code == ErrorCode::out_of_range)
+    issue.hint =
+        "the beam is too wide for a hollow of this branch's hole, whose least radius is half the "
+        "kerf, and more where the wall bends, because the beam, square to it, takes more of the "
+        "bore; use a smaller kerf_mm, " +
+        others;
+}
+
 }  // namespace
 
 bool has_section_branch(const Reader& in) {
@@ -73,6 +93,15 @@ part::SquareHole decode_square_hole(Reader& in, double half, std::size_t asked) 
   out.branch.kind = cut.kind;
   out.branch.gap = cut.gap;
   return out;
+}
+
+Error on_branches(Error error, const part::CutoutSpecs& cutouts) {
+  for (auto& issue : error.issues)
+    if (std::ranges::any_of(cutouts.holes, [&](const auto& hole) {
+          return is_at(issue.member, cutout::path_of(hole.cutout));
+        }))
+      advise(issue);
+  return error;
 }
 
 }  // namespace tubecut::api

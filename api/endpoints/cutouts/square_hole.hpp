@@ -13,4 +13,8 @@ namespace tubecut::api {
 /// `half`: half the smaller side of the part, or its radius, which a set-in branch does not reach.
 [[nodiscard]] part::SquareHole decode_square_hole(Reader& in, double half, std::size_t asked);
 
+/// Gives issues of the cut-outs that branches' holes became hints that a joint can follow, because
+/// it has no fields of a cut-out.
+[[nodiscard]] Error on_branches(Error error, const part::CutoutSpecs& cutouts);
+
 }  // namespace tubecut::api

@@ -4,11 +4,14 @@
 
 namespace tubecut::api {
 
+bool is_at(const std::string& path, const std::string& member) {
+  const auto n = member.size();
+  return path.starts_with(member) && (path.size() == n || path[n] == '/');
+}
+
 std::string renamed(const std::string& member, const Renamings& by) {
   const auto matches = [&](const Renaming& one) {
-    const auto n = one.from.size();
-    return member.starts_with(one.from) &&
-           (one.from.ends_with('/') || member.size() == n || member[n] == '/');
+    return one.from.ends_with('/') ? member.starts_with(one.from) : is_at(member, one.from);
   };
   const auto found = std::ranges::find_if(by, matches);
   if (found == by.end()) return member;

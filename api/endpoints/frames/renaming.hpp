@@ -15,6 +15,9 @@ struct Renaming {
 };
 using Renamings = std::vector<Renaming>;
 
+/// Returns true if a path names a member, or something below it.
+[[nodiscard]] bool is_at(const std::string& path, const std::string& member);
+
 /// The path by the first that matches it, or as it is.
 [[nodiscard]] std::string renamed(const std::string& member, const Renamings& by);
 
