@@ -25,8 +25,10 @@ constexpr double kFineAngleDeg = 5;
 constexpr double kLastBits = 4e-15;  // rad: of a product by pi / 180
 constexpr double kShortest = 0.05;   // of its diameter: a tube shorter than that is a ring
 constexpr double kTyped = 0.1;       // mm: lengths are designed in multiples of it
+constexpr double kFine = 0.01;       // mm: tolerances below kTyped, among them defaults, are too
 constexpr double kDesigned = 0.5;    // mm: nearly all of a metric design are multiples of it
-constexpr double kRounding = 0.5e-3 * kMmPerInch;  // of inches to three decimals
+constexpr double kRounding = 0.5e-3 * kMmPerInch;      // of inches to three decimals
+constexpr std::size_t kMostRound = 20, kMostOdd = 40;  // that are counted
 constexpr std::size_t kEnough = 3;  // lengths that differ; by chance one is as near in twenty
 
 /// For people: to the micrometre, or the thousandth of a degree.
@@ -136,9 +138,13 @@ double distance_of_ends(const Json& member) {
 /// Metric lengths written in inches: 300 mm as 11.811. A single one may be chance.
 class MetricInInches {
  public:
-  void check(double value, const std::string& path) {
+  /// `given`: it is a coordinate or a size beside one, which no default is.
+  void check(double value, const std::string& path, bool given) {
     const double mm = std::abs(value);
-    if (is_near(mm, kTyped, 1e-9)) return;
+    if (is_near(mm, mm < kTyped ? kFine : kTyped, 1e-9)) {
+      if (given && mm > 0.0 && is_near(mm, kDesigned, 1e-9)) note(mm, kMostRound, round_);
+      return;
+    }
     const double meant = mm * kMmPerInch;
     // As written: a length that was computed has digits that no rounded one has.
     if (meant < kDesigned / 2.0 || !is_near(meant, kDesigned, kRounding) ||
@@ -150,17 +156,18 @@ class MetricInInches {
     if (different_.empty()) path_ = path, first_ = value;
     // Lengths that differ by typed ones count once, because one odd place of a model moves them
     // all.
-    if (different_.size() <= kEnough && std::ranges::none_of(different_, [&](double one) {
-          return is_near(mm - one, kTyped, 1e-9);
-        }))
-      different_.push_back(mm);
+    if (std::ranges::none_of(different_,
+                             [&](double one) { return is_near(mm - one, kTyped, 1e-9); }))
+      note(mm, kMostOdd, different_);
   }
 
   /// Returns whether the lengths look like inches. A few odd lengths, such as defaults in mm and
-  /// computed values, do not count against it; if they are many, one more match is required.
+  /// computed values, do not count against it; if they are many, one more match is required. So is
+  /// one for each coordinate or size of a member that is round in mm, because few of a metric
+  /// design are round in inches too.
   [[nodiscard]] bool suspected() const {
     const std::size_t more = kEnough * others_ > alike_ ? 1 : 0;
-    return different_.size() >= kEnough + more && others_ <= alike_;
+    return different_.size() >= kEnough + more + round_.size() && others_ <= alike_;
   }
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] double first() const { return first_; }
@@ -171,7 +178,11 @@ class MetricInInches {
     return std::abs(value - of * std::floor(value / of + 0.5)) <= within;
   }
 
-  std::vector<double> different_;
+  static void note(double mm, std::size_t most, std::vector<double>& known) {
+    if (known.size() < most && std::ranges::find(known, mm) == known.end()) known.push_back(mm);
+  }
+
+  std::vector<double> different_, round_;
   std::string path_;
   double first_ = 0.0;
   std::size_t alike_ = 0, others_ = 0;
@@ -204,7 +215,7 @@ class Walk {
         const auto& one = (*array)[i];
         if (holds_more(one)) object(one, path + std::to_string(i) + "/", lengths);
         if (const auto* mm = one.as<double>(); lengths && mm != nullptr)
-          lengths_.check(*mm, path.substr(0, path.size() - 1));
+          lengths_.check(*mm, path.substr(0, path.size() - 1), true);
       }
       return;
     }
@@ -212,13 +223,16 @@ class Walk {
     if (members == nullptr) return;
     ask();
     tube(json, path);
+    const bool placed = std::ranges::any_of(*members, [](const Json::Member& one) {
+      return one.first.ends_with("_mm") && one.second.as<Json::Array>() != nullptr;
+    });
     for (const auto& [name, value] : *members) {
       const auto* of = value.as<double>();
       if (is_suspected_angle(name) && of != nullptr && is_round_angle_in_radians(*of)) {
         suspect(path + name, *of, "rad", tenths(degrees_of(*of)), "deg");
       }
       const bool length = name.ends_with("_mm");
-      if (length && of != nullptr) lengths_.check(*of, path + name);
+      if (length && of != nullptr) lengths_.check(*of, path + name, placed);
       if (holds_more(value)) object(value, path + name + "/", length);
     }
   }

@@ -103,6 +103,37 @@ TEST(Suspicion, CountsLengthsThatDifferByTypedOnesOnce) {
   EXPECT_NE(members("11.811", "19.685", "33.465"), "");
 }
 
+// One rail of a round length: two odd coordinates that are near round lengths were they inches are
+// chance, and a default of 0.02 mm is no third. The same rail in inches has nothing round in mm.
+TEST(Suspicion, TakesRoundCoordinatesForMillimetres) {
+  const auto rail = [](const std::string& from, const std::string& to, const std::string& y,
+                       const std::string& z) {
+    return suspects(R"({"alike_within_mm":0.02,"members":[{"start_mm":[)" + from + "," + y + "," +
+                    z + R"(],"end_mm":[)" + to + "," + y + "," + z + "]}]}");
+  };
+  const auto inches = [](double mm) {
+    std::array<char, 40> out{};
+    std::snprintf(out.data(), out.size(), "%.3f", mm / 25.4);
+    return std::string(out.data());
+  };
+  std::mt19937_64 random{20261130};
+  const auto any = [&](int from, int to) {
+    return std::uniform_int_distribution<int>(from, to)(random);
+  };
+  int metric = 0, imperial = 0;
+  for (int i = 0; i < 200; ++i) {
+    const auto y = inches(0.5 * any(200, 4000)), z = inches(0.5 * any(4000, 40000));
+    const auto from = std::to_string(5 * any(1, 40)), to = std::to_string(5 * any(100, 400));
+    if (!rail(from, to, y, z).empty()) ++metric;
+    if (!rail(inches(std::stod(from)), inches(std::stod(to)), y, z).empty()) ++imperial;
+  }
+  EXPECT_EQ(metric, 0);
+  EXPECT_GT(imperial, 180);  // but where lengths are round in inches too
+  EXPECT_EQ(suspects(R"({"members":[{"start_mm":[-146.063,155.807,180],"height_mm":40,"wall_mm":3,
+                                     "end_mm":[-4.646,-631.594,180]}]})"),
+            "");
+}
+
 /// The unit_suspicion warnings of an answer, each "pointer: detail".
 std::string warned(const Json& answer) {
   std::string out;
