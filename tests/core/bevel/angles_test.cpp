@@ -222,5 +222,26 @@ TEST(Angles, CornerOfEqualTubes) {
   EXPECT_EQ(corners, 2);
 }
 
+// Where the surfaces touch, B is the limit of places beside: vertical, with the sign of tau.
+TEST(Angles, TouchingSurfacesHaveTheLimitBeside) {
+  constexpr double kBesideTouch = 1e-6;
+  for (const GrooveRule& rule : {GrooveRule{NoGroove{}}, GrooveRule{HalfDihedral{}},
+                                 GrooveRule{FixedGroove{Angle::deg(20)}}})
+    for (const double radial : {1.0, -1.0}) {
+      const Rule of(rule, Dihedral::weld_side);
+      const double touching = of.angles({radial, 0.0, 0.0}).b;
+      const double beside =
+          of.angles({radial * std::cos(kBesideTouch), 0.0, std::sin(kBesideTouch)}).b;
+      EXPECT_NEAR(touching, std::copysign(0.5 * kPi, beside), 1e-12);
+      EXPECT_NEAR(touching, beside, 10.0 * kBesideTouch);
+      Angles many;
+      joint::Normals one;
+      one.radial = {radial};
+      one.tangential = one.axial = {0.0};
+      of.angles(one, {&many, 1});
+      EXPECT_EQ(many.b, touching);
+    }
+}
+
 }  // namespace
 }  // namespace tubecut::bevel

@@ -558,5 +558,36 @@ TEST(Contact, AWallWiderThanItsPartnerReportsItsOverhang) {
     }
 }
 
+// A tube whose bore touches two set-in partners tangentially where they meet: turning all partners
+// about it moves every place of the cut, and changes no height.
+TEST(Contact, TurningAllPartnersChangesNoLength) {
+  const auto turned = [](double degrees) {
+    const double low = 40.41337530811;
+    const auto partner = [&](double inclination, double clocking) {
+      return joint::TubeCutter{19.05, Angle::deg(inclination), Angle::deg(clocking)};
+    };
+    TableSpec spec{.target = {.outer_radius = 19.05, .wall = 2.5},
+                   .partners = {partner(low, degrees), partner(90.0 - low, degrees + 180.0)}};
+    spec.stated.assign(2, joint::Joint{.kind = joint::JointKind::set_in, .depth = 2.5});
+    spec.groove = NoGroove{};
+    spec.contact = Contact::automatic;
+    spec.smoothing = NoSmoothing{};
+    spec.sampling.tolerance = joint::Tolerance{0.05, joint::Metric::developed};
+    spec.kerf = 1.0;
+    return table(spec);
+  };
+  const auto drawn = turned(0.0);
+  ASSERT_TRUE(drawn);
+  const auto least = [](const std::vector<double>& z) { return *std::ranges::min_element(z); };
+  for (const double degrees : {5.0, 20.0, 84.0, 85.0, 180.0, 301.7}) {
+    const auto other = turned(degrees);
+    ASSERT_TRUE(other);
+    EXPECT_NEAR(least(other->z_outer), least(drawn->z_outer), 1e-6) << degrees;
+    EXPECT_NEAR(least(other->z_inner), least(drawn->z_inner), 1e-6) << degrees;
+    EXPECT_NEAR(least(other->torch_outer), least(drawn->torch_outer), 0.05) << degrees;
+    EXPECT_EQ(other->torch_binds.size(), drawn->torch_binds.size()) << degrees;
+  }
+}
+
 }  // namespace
 }  // namespace tubecut::bevel
