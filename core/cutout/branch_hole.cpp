@@ -9,6 +9,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/try.hpp"
+#include "core/cutout/branch_distance.hpp"
 #include "core/cutout/flats.hpp"
 #include "core/cutout/hull.hpp"
 #include "core/cutout/shadow/shadow.hpp"
@@ -266,13 +267,13 @@ Result<BranchHole> shadow_hole(const Branch& branch, const joint::Target& tube,
   if (bore) return out;
   TRY(const auto chain, chain_of(out.spec));
   out.greatest_gap = branch.gap;
+  const BranchDistance distance(branch);
   for (const auto& s : chain)
     for (int k = 0; k < kShares; ++k) {
       const Flat p = s.at(static_cast<double>(k) / kShares);
       const auto line = lines.at(shadow.s + p.y());
       for (const auto& q : {line.outer, line.bore})
-        out.greatest_gap =
-            std::max(out.greatest_gap, distance_from(branch, {q.x(), q.y(), shadow.z + p.x()}));
+        out.greatest_gap = std::max(out.greatest_gap, distance({q.x(), q.y(), shadow.z + p.x()}));
     }
   return out;
 }
@@ -343,10 +344,20 @@ Result<std::vector<BranchHole>> holes_for(const Branch& branch, const std::strin
   return out;
 }
 
-double distance_from(const Branch& branch, const Eigen::Vector3d& place) {
+BranchDistance::BranchDistance(const Branch& branch)
+    : outline_(outline(branch, 0.0)), origin_(branch.axis.point) {
   const auto axes = axes_of(branch);
-  const Vector3d p = place - branch.axis.point;
-  return way_to(outline(branch, 0.0), {p.dot(axes.x), p.dot(axes.y)});
+  x_ = axes.x;
+  y_ = axes.y;
+}
+
+double BranchDistance::operator()(const Vector3d& place) const {
+  const Vector3d p = place - origin_;
+  return way_to(outline_, {p.dot(x_), p.dot(y_)});
+}
+
+double distance_from(const Branch& branch, const Vector3d& place) {
+  return BranchDistance(branch)(place);
 }
 
 }  // namespace tubecut::cutout

@@ -78,6 +78,7 @@ double around(const Chain& chain, const Integrand& of, double rho) {
 Taken taken_over(const SectionLay& lay, const Chain& chain) {
   static const auto kRule = math::gauss_legendre(kGaussPoints);
   const double none = lay.area(0.0);  // an area of the wall, not from the datum
+  const auto start = lay.at(0.0);
   Taken out;
   for (const auto& s : divided(chain, lay.breaks())) {
     const auto shares = cells(s);
@@ -87,8 +88,9 @@ Taken taken_over(const SectionLay& lay, const Chain& chain) {
         const double share = shares[i] + 0.5 * (1.0 + kRule.nodes[k]) * part;
         const double da = s.along(share).x() * s.length() * 0.5 * kRule.weights[k] * part;
         const double b = s.at(share).y();
-        out.outer_area += lay.way(b, true) * da;
-        out.inner_area += lay.way(b, false) * da;
+        const auto here = lay.at(b);
+        out.outer_area += (here.s - start.s) * da;
+        out.inner_area += (here.s_bore - start.s_bore) * da;
         out.volume += (lay.area(b) - none) * da;
       }
   }

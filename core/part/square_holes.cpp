@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/try.hpp"
+#include "core/cutout/branch_distance.hpp"
 #include "core/math/cylinder.hpp"
 #include "core/part/cut_edges.hpp"
 
@@ -27,6 +28,7 @@ double off_gap(const CutoutSpecs& specs, const cutout::Layout& layout, const Pla
   for (const auto& one : specs.holes) {
     const auto& branch = one.hole.branch;
     if (branch.kind == joint::JointKind::set_on) continue;  // it is the branch's bore
+    const cutout::BranchDistance distance(branch);
     double least = std::numeric_limits<double>::infinity(), most = 0.0;
     for (const auto& instance : layout.instances) {
       if (instance.asked != one.cutout) continue;
@@ -36,7 +38,7 @@ double off_gap(const CutoutSpecs& specs, const cutout::Layout& layout, const Pla
         const Vector3d inner = placed(false, rows.phi_inner[i], rows.z_inner[i]);
         for (int k = 0; k < kDepths; ++k) {
           const double share = static_cast<double>(k) / (kDepths - 1);
-          const double gap = distance_from(branch, outer + share * (inner - outer));
+          const double gap = distance(outer + share * (inner - outer));
           least = std::min(least, gap);
           most = std::max(most, gap);
         }
