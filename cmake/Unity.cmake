@@ -17,7 +17,7 @@ tubecut_alone(tubecut_core core/joint/cutters elbow.cpp elbow_solid.cpp rectangu
 tubecut_alone(tubecut_core core/part member.cpp)
 tubecut_alone(tubecut_core core/section curve.cpp section.cpp)
 tubecut_alone(tubecut_core core/joint/section flat_sheets.cpp outline_events.cpp section_contour.cpp section_intersection.cpp section_length.cpp section_place.cpp section_sampling.cpp)
-tubecut_alone(tubecut_core core/bevel/section section_beam.cpp section_gaps.cpp section_rows.cpp section_surface.cpp section_table.cpp section_torch.cpp section_verify.cpp)
+tubecut_alone(tubecut_core core/bevel/section section_beam.cpp section_gaps.cpp section_points.cpp section_rows.cpp section_surface.cpp section_table.cpp section_torch.cpp section_verify.cpp)
 tubecut_alone(tubecut_api api batch.cpp suspicion.cpp version.cpp)  # version is replaced by a server of the tests
 tubecut_alone(tubecut_api api/catalog post_units.cpp tube_sizes.cpp)
 tubecut_alone(tubecut_api api/wire cbor.cpp json.cpp reader.cpp)  # the fuzz run instruments them

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/elementary.hpp"
+#include "core/base/angle.hpp"
 #include "core/base/try.hpp"
 #include "core/bevel/beam/torch_line.hpp"
 #include "core/bevel/table/required.hpp"
@@ -15,18 +15,12 @@ namespace {
 
 using section::Station;
 
-constexpr double kSamePlace = 1e-9;  // mm: two stops so near are one
-constexpr double kSameRow = 1e-6;    // mm
-constexpr double kBeside = 1e-4;     // rad, of the place where a kink's side is looked at
+constexpr double kSamePlace = 1e-9;   // mm: two stops so near are one
+constexpr double kSameRow = 1e-6;     // mm
+constexpr double kBesideJump = 1e-4;  // mm
 constexpr double kWidestTurn = 10.0 * kRadPerDeg;
 constexpr double kWidestShare = 1.0 / 36.0;
 constexpr int kProbes = 7, kHalvings = 40;
-constexpr double kSilhouette = 1e-12;  // axial part of a normal that is none
-
-bool is_set_in(const TableSpec& spec, std::size_t partner) {
-  const auto& stated = stated_joint(spec, partner);
-  return stated && stated->kind == joint::JointKind::set_in;
-}
 
 /// Refuses options that are not available for a section.
 Result<void> check(const section::Section& section, const TableSpec& spec) {
@@ -123,7 +117,12 @@ class Maker {
     for (const auto& event : contour.events) {
       const double s = outer ? event.s : g_.wall.outside_of(contour.curve.at(event.s));
       stops_.push_back(s);
-      if (outer == g_.root_outside() && event.kind != joint::SectionEventKind::seam)
+      const bool of_root = outer == g_.root_outside();
+      // Where the other edge steps alone, the cut is as before on one side and as after on the
+      // other.
+      if (!of_root && event.kind == joint::SectionEventKind::jump)
+        stops_.insert(stops_.end(), {s - kBesideJump, s + kBesideJump});
+      if (of_root && event.kind != joint::SectionEventKind::seam)
         root_events_.push_back({turned(s), &event});
     }
   }
@@ -165,9 +164,13 @@ class Maker {
     if (event->kind != joint::SectionEventKind::jump) return rows_.push_back(row);
     row.jump = true;
     row.after = event->from;
+    row.other = event->to;
+    row.side = -1.0;
     rows_.push_back(row);
     row.z = event->z_to;
     row.before = row.after = event->to;
+    row.other = event->from;
+    row.side = 1.0;
     rows_.push_back(row);
   }
 
@@ -247,97 +250,6 @@ class Maker {
   std::vector<SectionRow> rows_;
 };
 
-/// The partner's normal seen in the root surface's own frame, and that frame's lean against the
-/// row's: n_root = cos n + sin t.
-struct RootNormal {
-  Eigen::Vector3d normal;
-  double slope;  // dz along the root's own outline
-  double cos, sin;
-};
-RootNormal root_normal(const SectionSetup& g, const SectionRow& row, std::size_t cutter,
-                       double beside) {
-  auto own = g.root_station(row.at);
-  if (beside != 0.0) own = g.root().curve.at(own.s + beside);
-  // Concentric corners have one normal, where the bore has no corner radius too.
-  if (!g.root_outside() && g.wall.concentric()) {
-    own.normal = row.at.normal;
-    own.nu = row.at.nu;
-  }
-  const auto hit = g.root().hit(cutter, own);
-  const auto& n = row.at.normal;
-  return {hit.normal, hit.z_dphi, n.dot(own.normal),
-          n.x() * own.normal.y() - n.y() * own.normal.x()};
-}
-
-/// B of the groove's surface, which holds the root's tangent and makes the groove's angle with the
-/// partner, in the plane of the row's normal.
-void lean(const RootNormal& at, bool square, Angles& out) {
-  const auto turn = elementary::sincos(out.gamma), rule = elementary::sincos(out.groove);
-  const auto& n = at.normal;
-  const Eigen::Vector3d along(turn.cos * n.z() + turn.sin * n.y(), -turn.sin * n.x(),
-                              -turn.cos * n.x());
-  const Eigen::Vector3d m = rule.cos * n - rule.sin * along;
-  out.flush = elementary::atan2(-(at.cos * n.x() - at.sin * n.y()), n.z());
-  if (!square) out.b = elementary::atan2(-(at.cos * m.x() - at.sin * m.y()), m.z());
-}
-
-double input_of(const TableSpec& spec, const SectionPoint& p) {
-  const bool square = std::holds_alternative<SquareCut>(spec.groove);
-  const bool floored =
-      spec.contact == Contact::inner || (spec.contact == Contact::automatic && !square);
-  return floored ? std::min(std::max(p.raw, p.required), spec.torch.max.rad()) : p.raw;
-}
-
-SectionPoint point(const SectionSetup& g, const SectionRow& row, std::size_t cutter,
-                   double beside) {
-  const bool square = std::holds_alternative<SquareCut>(g.spec.groove);
-  const bool set_in = is_set_in(g.spec, cutter) && !g.spec.untilted;
-  const auto at = root_normal(g, row, cutter, beside);
-  SectionPoint out;
-  // The dihedral counts from the row's own outside, gamma along the root.
-  const auto& n = at.normal;
-  out.angles =
-      (set_in ? g.flush : g.rule)
-          .angles({at.cos * n.x() - at.sin * n.y(), at.sin * n.x() + at.cos * n.y(), n.z()});
-  const bool grazes = std::abs(n.z()) <= kSilhouette;
-  if (grazes && std::isfinite(at.slope))
-    out.angles.gamma = -elementary::atan(at.slope);
-  else if (at.sin != 0.0)
-    out.angles.gamma = elementary::atan2(n.y(), n.z());
-  if (grazes || at.sin != 0.0) lean(at, square && !set_in, out.angles);
-  out.raw = std::clamp(out.angles.b, g.spec.torch.min.rad(), g.spec.torch.max.rad());
-  const auto view = local_view(g, row.at, row.across.wall);
-  const double f = g.spec.root_face;
-  if (f > 0.0) {
-    const double edge = view.wall.inner + f;
-    out.face = std::max(
-        0.0, required_bevel(view.cutters, {view.wall.inner, edge}, view.inner, row.bore_z));
-    const double slope = elementary::tan(std::min(out.face, g.spec.torch.max.rad()));
-    out.required =
-        required_bevel(view.cutters, {edge, view.wall.outer},
-                       {edge, view.inner.cos_phi, view.inner.sin_phi}, row.bore_z + f * slope);
-  } else {
-    out.required = required_bevel(view.cutters, view.wall, view.inner, row.bore_z);
-  }
-  out.input = input_of(g.spec, out);
-  return out;
-}
-
-void fill(const SectionSetup& g, SectionRow& row) {
-  row.bore_z = g.root_outside() ? joint::contact_at(g.inner, row.across.bore).z : row.z;
-  row.cutter = row.before;
-  if (!row.corner || row.jump) {
-    row.point = point(g, row, row.before, 0.0);
-    return;
-  }
-  // The side of an event with the larger input counts; a kink's sides are those beside it.
-  const bool kink = row.before == row.after;
-  const double beside = kink ? kBeside * std::max(g.root().curve.corner(), 1.0) : 0.0;
-  const auto first = point(g, row, row.before, -beside), second = point(g, row, row.after, beside);
-  row.point = first.input >= second.input ? first : second;
-  row.cutter = first.input >= second.input ? row.before : row.after;
-}
-
 }  // namespace
 
 LocalView local_view(const SectionSetup& g, const Station& at, double wall) {
@@ -373,7 +285,7 @@ Result<SectionRows> section_rows(const SectionSetup& g, std::span<const double> 
   TRY(out.rows, Maker(g).make(also));
   std::vector<double> places;
   for (auto& row : out.rows) {
-    fill(g, row);
+    fill_row(g, row);
     places.push_back(g.root_station(row.at).s);
   }
   const auto lengths = joint::lengths_along(g.root(), places);

@@ -44,6 +44,8 @@ struct SectionRow {
   double bore_z = 0.0;  // of the contour on the bore
   std::size_t before = 0, after = 0, cutter = 0;
   bool jump = false, corner = false;
+  double side = 0.0;      // of a jump's first row -1, of its second 1
+  std::size_t other = 0;  // at a jump, the partner of its other row
   double length = 0.0;
   SectionPoint point;
 };
@@ -56,6 +58,8 @@ struct SectionRows {
            rows[i].at.s == rows[i + 1].at.s;
   }
 };
+/// Fills in a row's angles, from its place, height and partners.
+void fill_row(const SectionSetup& g, SectionRow& row);
 /// Rows at the places `also` (s outside) besides those of the sampling.
 [[nodiscard]] Result<SectionRows> section_rows(const SectionSetup& g, std::span<const double> also);
 

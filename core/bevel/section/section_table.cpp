@@ -219,7 +219,9 @@ class Maker {
       smoothed = std::move(found.b);
       out_.multipliers = std::move(found.multipliers);
     }
-    for (const auto k : entry) out_.b.push_back(smoothed[k]);
+    // Without smoothing each of a jump's two rows keeps its own side's.
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      out_.b.push_back(method != nullptr ? smoothed[entry[i]] : rows[i].point.input);
     return {};
   }
 
