@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/bevel/section/section_surface.hpp"
+#include "core/bevel/table/root_opens.hpp"
 
 namespace tubecut::bevel::detail {
 namespace {
@@ -19,6 +19,36 @@ SectionSurface::Line line_of(const SectionSurface& surface, const SectionTable& 
   const bool first = i + 1 < rows.at.size() && rows.at[i + 1].s == s;
   if (first && k > 0 && table.at[k].s == s && table.at[k - 1].s == s) --k;
   return table.at[k].s == s ? surface.line(k, 0.0) : surface.line_at(k, s);
+}
+
+/// Returns the distance of a place from the nearest partner.
+double metal_distance(const SectionSetup& g, const Eigen::Vector3d& place) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& solid : g.solids) least = std::min(least, solid.distance(place));
+  return least;
+}
+
+/// Closes openings that are narrower than they would have to be to count: no metal is missing
+/// there.
+void close_slivers(const SectionSurface& surface, std::vector<double>& open) {
+  const auto n = open.size();
+  const auto closed = std::ranges::find_if(open, [](double gap) { return !(gap > kOpen); });
+  if (closed == open.end()) return;
+  const auto first = static_cast<std::size_t>(closed - open.begin());
+  double wide = 0.0;
+  std::vector<std::size_t> run;
+  for (std::size_t k = 0, i = first; k < n; ++k) {
+    wide += surface.width(i);
+    i = surface.next(i);
+    if (open[i] > kOpen) {
+      run.push_back(i);
+      continue;
+    }
+    if (wide <= kOpen)
+      for (const auto row : run) open[row] = 0.0;
+    run.clear();
+    wide = 0.0;
+  }
 }
 
 }  // namespace
@@ -39,16 +69,24 @@ EdgeGaps edge_gaps(const SectionSetup& g, const TableSpec& spec, const SectionTa
                    const SectionTable& rows) {
   const SectionSurface surface(g.wall, spec, table);
   EdgeGaps out;
-  const auto nearest = [&](const Eigen::Vector3d& place) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& solid : g.solids) least = std::min(least, solid.distance(place));
-    return least;
-  };
   for (std::size_t i = 0; i < rows.at.size(); ++i) {
     const auto line = line_of(surface, table, rows, i);
-    out.inner.push_back(nearest(SectionSurface::place(line, line.wall, line.inner)));
-    out.outer.push_back(nearest(SectionSurface::place(line, 0.0, line.outer)));
+    out.inner.push_back(metal_distance(g, SectionSurface::place(line, line.wall, line.inner)));
+    out.outer.push_back(metal_distance(g, SectionSurface::place(line, 0.0, line.outer)));
   }
+  return out;
+}
+
+std::vector<double> root_openings(const SectionSetup& g, const SectionSurface& surface,
+                                  const SectionTable& table) {
+  auto out = table.gap;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (!(out[i] > kOpen)) continue;
+    const auto line = surface.line(i, 0.0);
+    const double metal = metal_distance(g, SectionSurface::place(line, line.wall, line.inner));
+    if (metal <= kOpen) out[i] = std::max(0.0, metal);
+  }
+  close_slivers(surface, out);
   return out;
 }
 

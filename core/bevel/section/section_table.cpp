@@ -323,7 +323,8 @@ class Maker {
   // ---- figures and warnings
 
   void note() {
-    note_torch_binds();
+    const auto open = detail::root_openings(g_, surface_, out_);
+    note_torch_binds(open);
     detail::note_overhang(g_, out_);
     for (std::size_t i = 0; i < out_.at.size(); ++i) {
       const auto in = deepest_in_gap(surface_, i, g_.solids);
@@ -336,14 +337,14 @@ class Maker {
                                .detail = "by up to " + brief(out_.penetration.depth) +
                                          " mm at girth " + brief(out_.penetration.s) + " mm"});
     const auto place = [&](std::size_t i) { return "girth " + brief(out_.at[i].s) + " mm"; };
-    if (auto opens = root_opens(spec_, out_.gap, place)) out_.warnings.push_back(*std::move(opens));
+    if (auto opens = root_opens(spec_, open, place)) out_.warnings.push_back(*std::move(opens));
     if (!spec_.sampling.tolerance && !(out_.inner_events.empty() && out_.outer_events.empty()))
       out_.warnings.push_back({.code = WarningCode::events_between_nodes,
                                .member = "sampling/uniform_points",
                                .detail = "events and the ends of flats lie between the rows"});
   }
 
-  void note_torch_binds() {
+  void note_torch_binds(const std::vector<double>& open) {
     const bool lifted =
         spec_.contact == Contact::automatic && !std::holds_alternative<SquareCut>(spec_.groove);
     const auto lost = [&](std::size_t i) {
@@ -357,7 +358,7 @@ class Maker {
         const double s = out_.at[i].s;
         if (!((s >= from && s <= to) || s + girth_ <= to)) continue;
         one.groove_lost = std::max(one.groove_lost, lost(i));
-        one.root_gap = std::max(one.root_gap, out_.gap[i]);
+        one.root_gap = std::max(one.root_gap, open[i]);
       }
       out_.torch_binds.push_back(one);
       out_.warnings.push_back(

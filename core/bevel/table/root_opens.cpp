@@ -7,7 +7,6 @@ namespace tubecut::bevel {
 std::optional<Warning> root_opens(const TableSpec& spec, const std::vector<double>& gap,
                                   const std::function<std::string(std::size_t)>& place) {
   if (spec.contact != Contact::automatic && spec.contact != Contact::outer) return std::nullopt;
-  constexpr double kOpen = 0.05;  // mm: less than a kerf varies
   const auto widest = std::ranges::max_element(gap);
   if (widest == gap.end() || *widest <= kOpen) return std::nullopt;
   return Warning{.code = WarningCode::root_opens,

@@ -10,6 +10,8 @@
 
 namespace tubecut::bevel {
 
+inline constexpr double kOpen = 0.05;  // mm: less than a kerf varies
+
 /// Returns the warning of the row where the root opens most, if it opens although the contact is to
 /// close it; `place` names the place of a row.
 [[nodiscard]] std::optional<Warning> root_opens(
