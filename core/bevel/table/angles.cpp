@@ -32,9 +32,9 @@ Parts parts(const Eigen::Vector3d& n, Dihedral dihedral) {
   return p;
 }
 
-/// The slant as a factor of tan B's numerator. Where the two surfaces touch it is 0, and B keeps
-/// its limit, +-90 deg.
-double steep(double slant) { return slant > 0.0 ? slant : 1.0; }
+/// Returns slant or axial part as a factor of tan B. Where the surfaces touch both are 0: gamma
+/// then counts as 0, and B is tau.
+double factor(double part, double slant) { return slant > 0.0 ? part : 1.0; }
 
 }  // namespace
 
@@ -75,7 +75,8 @@ Angles Rule::angles(const Eigen::Vector3d& normal) const {
   a.tau = 0.5 * kPi - a.dihedral + a.groove;
   const double sin_tau = p.across * groove.sin - p.radial * groove.cos;
   const double cos_tau = p.across * groove.cos + p.radial * groove.sin;
-  a.b = elementary::quick_atan2(sin_tau * steep(p.slant), cos_tau * p.axial);
+  a.b = elementary::quick_atan2(sin_tau * factor(p.slant, p.slant),
+                                cos_tau * factor(p.axial, p.slant));
   return a;
 }
 
@@ -101,8 +102,8 @@ void Rule::angles(const joint::Normals& normals, std::span<Angles> out) const {
       const bool sharp = half & (0.5 * dihedral[i] < limit_);
       const double sin_tau = slant[i] * sin_limit_ - radial[i] * cos_limit_;
       const double cos_tau = slant[i] * cos_limit_ + radial[i] * sin_limit_;
-      rise[i] = sharp ? 1.0 - radial[i] : sin_tau * steep(slant[i]);
-      run[i] = sharp ? normals.axial[i] : cos_tau * normals.axial[i];
+      rise[i] = sharp ? 1.0 - radial[i] : sin_tau * factor(slant[i], slant[i]);
+      run[i] = sharp ? normals.axial[i] : cos_tau * factor(normals.axial[i], slant[i]);
     }
     elementary::quick_atan2(rise, run, b);
   }

@@ -222,7 +222,7 @@ TEST(Angles, CornerOfEqualTubes) {
   EXPECT_EQ(corners, 2);
 }
 
-// Where the surfaces touch, B is the limit of places beside: vertical, with the sign of tau.
+// Where the surfaces touch, B is the limit of places beside along the tube: tau.
 TEST(Angles, TouchingSurfacesHaveTheLimitBeside) {
   constexpr double kBesideTouch = 1e-6;
   for (const GrooveRule& rule : {GrooveRule{NoGroove{}}, GrooveRule{HalfDihedral{}},
@@ -232,7 +232,7 @@ TEST(Angles, TouchingSurfacesHaveTheLimitBeside) {
       const double touching = of.angles({radial, 0.0, 0.0}).b;
       const double beside =
           of.angles({radial * std::cos(kBesideTouch), 0.0, std::sin(kBesideTouch)}).b;
-      EXPECT_NEAR(touching, std::copysign(0.5 * kPi, beside), 1e-12);
+      EXPECT_NEAR(touching, of.angles({radial, 0.0, 0.0}).tau, 1e-12);
       EXPECT_NEAR(touching, beside, 10.0 * kBesideTouch);
       Angles many;
       joint::Normals one;
