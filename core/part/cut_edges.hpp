@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
 #include "core/bevel/table/table.hpp"
 #include "core/joint/joint.hpp"
@@ -24,22 +25,22 @@ template <class Table>
   return std::max(std::ranges::max(t.z_inner), std::ranges::max(t.z_outer));
 }
 
-/// Return the lowest and the highest z of the kerf, a whole kerf beyond the finished edges.
+/// Return the lowest and the highest z of the kerf: half a kerf across the beam beyond its axis.
 template <class Table>
-[[nodiscard]] double lowest_kerf(const Table& t) {
+[[nodiscard]] double lowest_kerf(const Table& t, double kerf) {
   double out = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < t.z_outer.size(); ++i) {
-    const double drop = t.z_outer[i] - t.torch_outer[i];
-    out = std::min({out, t.torch_outer[i] - drop, t.torch_inner[i] - drop});
+  for (std::size_t i = 0; i < t.torch_outer.size(); ++i) {
+    const double beyond = 0.5 * kerf / elementary::cos(t.b[i]);
+    out = std::min(out, std::min(t.torch_outer[i], t.torch_inner[i]) - beyond);
   }
   return out;
 }
 template <class Table>
-[[nodiscard]] double highest_kerf(const Table& t) {
+[[nodiscard]] double highest_kerf(const Table& t, double kerf) {
   double out = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < t.z_outer.size(); ++i) {
-    const double rise = t.torch_outer[i] - t.z_outer[i];
-    out = std::max({out, t.torch_outer[i] + rise, t.torch_inner[i] + rise});
+  for (std::size_t i = 0; i < t.torch_outer.size(); ++i) {
+    const double beyond = 0.5 * kerf / elementary::cos(t.b[i]);
+    out = std::max(out, std::max(t.torch_outer[i], t.torch_inner[i]) + beyond);
   }
   return out;
 }
@@ -69,7 +70,8 @@ template <class Part, class Spec>
   return {.work_point = work_point,
           .longest = highest(f) - lowest(s),
           .shortest = lowest(f) - highest(s),
-          .blank = highest_kerf(f) - lowest_kerf(s) + spec.clamping + spec.facing,
+          .blank = highest_kerf(f, p.finish.spec.kerf) - lowest_kerf(s, p.start.spec.kerf) +
+                   spec.clamping + spec.facing,
           .weld = p.start.weld_length + p.finish.weld_length};
 }
 

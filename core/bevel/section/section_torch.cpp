@@ -24,7 +24,10 @@ constexpr int kSpared = 6;  // rounds of lowering rows that the beam enters
 constexpr double kSampledShares[] = {0.0, 0.04, 0.1, 0.2, 0.35,
                                      0.5, 0.65, 0.8, 0.9, 0.96};  // shares of a gap
 constexpr double kEntered = 1e-4;                                 // mm
-constexpr double kShortest = 5e-4;  // mm along s: no shorter interval is divided
+constexpr double kShortest = 5e-4;   // mm along s: no shorter interval is divided
+constexpr double kHighStep = 0.1;    // mm: a higher step of the need is found within kStepPlace
+constexpr double kStepPlace = 1e-7;  // mm along s
+constexpr double kStepWidth = 1e-3;  // mm along s in which the axis takes a step
 
 /// The drop that a place between two rows needs.
 struct Need {
@@ -105,7 +108,9 @@ class Torch {
   /// Appends the needs after `from` up to `to`. Where a jump comes within the beam's reach the need
   /// steps by as much as the jump is high.
   void divide(Need from, Need to, int divisions, std::vector<Need>& out) const {
-    if ((to.share - from.share) * surface_.width(from.row) > kShortest) {
+    const double wide = (to.share - from.share) * surface_.width(from.row);
+    const bool steps = std::abs(to.drop - from.drop) > kHighStep && wide > kStepPlace;
+    if (wide > kShortest || steps) {
       const auto middle = at(from.row, 0.5 * (from.share + to.share));
       const double bend = std::abs(middle.drop - 0.5 * (from.drop + to.drop));
       if (bend > (divisions > 0 ? kBend : kStep)) {
@@ -213,6 +218,36 @@ std::vector<double> places_where_drop_bends(const SectionSurface& surface, const
     if (std::abs(needed_drop(surface, i, 0.5, spec.kerf) - straight) >
         spec.sampling.tolerance->value)
       out.push_back(surface.line(i, 0.5).at.s);
+  }
+  return out;
+}
+
+std::vector<double> places_beside_steps(const SectionSurface& surface, const TableSpec& spec,
+                                        const SectionTable& table) {
+  std::vector<double> out;
+  const double girth = table.girth, reach = surface.beam_reach(spec.kerf);
+  const auto turned = [girth](double s) { return s - girth * std::floor(s / girth); };
+  for (std::size_t i = 0; i < table.at.size() && !stopped(); ++i) {
+    const double step = table.z_outer[surface.next(i)] - table.z_outer[i];
+    if (surface.width(i) > kStepWidth || !(std::abs(step) > kHighStep)) continue;
+    // Beside the higher row the axis runs past the step's own wall.
+    const double way = step > 0.0 ? 1.0 : -1.0;
+    const double from = table.at[step > 0.0 ? surface.next(i) : i].s;
+    const auto passes = [&](double off) {
+      const double s = turned(from + way * off);
+      const auto row = surface.row_before(s);
+      const double wide = surface.width(row), share = turned(s - table.at[row].s) / wide;
+      return wide > 0.0 &&
+             needed_drop(surface, row, std::min(share, 1.0), spec.kerf) > 0.5 * std::abs(step);
+    };
+    double near = 0.0, far = 1.01 * reach;
+    if (passes(far)) continue;
+    while (far - near > kStepPlace) {
+      const double middle = 0.5 * (near + far);
+      (passes(middle) ? near : far) = middle;
+    }
+    out.push_back(turned(from + way * near));
+    out.push_back(turned(from + way * (near + kStepWidth)));
   }
   return out;
 }

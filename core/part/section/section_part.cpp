@@ -132,13 +132,6 @@ Lengths lengths(const SectionPartSpec& spec, const SectionPart& p) {
                end_volume(wall, p.start.spec, p.start.table);
   for (const auto& one : p.cutouts.instances) out.volume -= p.cutouts.mould_of(one).taken.volume;
   out.mass = out.volume * 1e-9 * spec.density;
-  // Next to a tab a row's torch cuts another row's edge, so that the rows alone do not tell the
-  // kerf.
-  const double dz = -lowest(p.start.own);
-  const double from = p.start.shoulder ? p.start.kerf_edge + dz : lowest_kerf(p.start.table);
-  const double to =
-      p.finish.shoulder ? spec.length - p.finish.kerf_edge + dz : highest_kerf(p.finish.table);
-  out.blank = to - from + spec.clamping + spec.facing;
   return out;
 }
 

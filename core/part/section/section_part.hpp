@@ -75,7 +75,6 @@ struct SectionEnd {
   bevel::TableSpec spec;
   bevel::SectionTable own;                           // in the end's own frame, with its tabs
   std::optional<bevel::SectionTable> shoulder = {};  // the same without tabs, if it has any
-  double kerf_edge = 0.0;        // of an end with tabs, in its own frame: z where the beams begin
   bevel::SectionTable table;     // in the part's frame; B > 0: outer edge further towards +z
   GirthPoint longest, shortest;  // of the outer edge: furthest from, and nearest to, the other end
   double weld_length = 0.0;      // of the root curve; 0 if nothing is welded

@@ -75,8 +75,6 @@ class TabRows {
     return std::move(out_);
   }
 
-  [[nodiscard]] double kerf_edge() const { return kerf_edge_; }
-
   /// Returns the first strip on which the cut has a corner, the torch's passage included.
   [[nodiscard]] std::optional<std::size_t> bent() const {
     for (std::size_t k = 0; k < strips_.size(); ++k)
@@ -185,10 +183,6 @@ class TabRows {
     for (auto* z : {&out_.z_inner, &out_.z_outer, &out_.z_face})
       if (!z->empty()) z->back() -= length(finished);
     for (auto* z : {&out_.torch_inner, &out_.torch_outer}) z->back() -= length(torch);
-    if (finished != torch) return;  // its own edge is cut at another row
-    const double drop = out_.z_outer.back() - out_.torch_outer.back();
-    kerf_edge_ =
-        std::min({kerf_edge_, out_.torch_outer.back() - drop, out_.torch_inner.back() - drop});
   }
 
   const section::Curve& outer_;
@@ -199,7 +193,6 @@ class TabRows {
   bevel::SectionSurface surface_;
   SectionTable out_;
   double added_ = 0.0;  // to the length of the cut, so far
-  double kerf_edge_ = std::numeric_limits<double>::infinity();
 };
 
 std::vector<TabStrip> strips_of(const TabbedEnd& end) {
@@ -323,9 +316,7 @@ Result<void> add_tabs(const TabbedEnd& end, SectionEnd& out) {
     return fail({.code = ErrorCode::unsupported_combination,
                  .member = tab_path(*bent),
                  .hint = "the cut has a corner on this tab; move the tab off it"});
-  auto tabbed = rows.make();
-  out.kerf_edge = rows.kerf_edge();
-  out.shoulder = std::exchange(out.own, std::move(tabbed));
+  out.shoulder = std::exchange(out.own, rows.make());
   return {};
 }
 
