@@ -7,6 +7,7 @@
 
 #include "core/base/elementary.hpp"
 #include "core/base/error.hpp"
+#include "core/bevel/section/section_table.hpp"
 #include "core/bevel/table/table.hpp"
 #include "core/joint/joint.hpp"
 #include "core/part/edge.hpp"
@@ -45,21 +46,66 @@ template <class Table>
   return out;
 }
 
+/// Return true if two rows have one place, as the two of a jump.
+[[nodiscard]] inline bool same_place(const bevel::Table& t, std::size_t i, std::size_t j) {
+  return t.phi[i] == t.phi[j];
+}
+[[nodiscard]] inline bool same_place(const bevel::SectionTable& t, std::size_t i, std::size_t j) {
+  return t.at[i].s == t.at[j].s;
+}
+
+/// Return true if an event of either wall lies at a row.
+[[nodiscard]] inline bool at_event(const bevel::Table& t, std::size_t i) {
+  const auto here = [&](const joint::Event& event) { return event.phi == t.phi[i]; };
+  return std::ranges::any_of(t.inner_events, here) || std::ranges::any_of(t.outer_events, here);
+}
+[[nodiscard]] inline bool at_event(const bevel::SectionTable& t, std::size_t i) {
+  return t.corner[i];
+}
+
+/// Calls see(partner, mm) with each stretch of an end's root curve, in the end's own frame. No
+/// partner depends on the direction around the tube: a jump lies on the higher partner, which is
+/// lost there; a junction's own row may be either's, so the row beyond the stretch's other end
+/// counts; a stretch that could be either's counts half for both.
+template <class Table, class See>
+void each_root_stretch(const bevel::TableSpec& spec, const Table& t, const See& see) {
+  const bool outer = spec.root_surface == bevel::RootSurface::outer;
+  const auto n = t.length.size();
+  const auto height = [&](std::size_t i) { return outer ? t.z_outer[i] : t.z_inner[i] - t.gap[i]; };
+  const auto either = [&](std::size_t i) {
+    const bool jump =
+        same_place(t, i, i + 1 < n ? i + 1 : 0) || same_place(t, i, i > 0 ? i - 1 : n - 1);
+    return !jump && at_event(t, i);
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = i + 1 < n ? i + 1 : 0;
+    // Lengths count from the datum, where no row need lie.
+    const double length = t.length[j] + (j > 0 ? 0.0 : t.length_total) - t.length[i];
+    double first = 0.5;
+    if (t.cutter[i] == t.cutter[j])
+      first = 1.0;
+    else if (same_place(t, i, j))
+      first = height(i) > height(j) ? 1.0 : height(i) < height(j) ? 0.0 : 0.5;
+    else if (either(i) != either(j))
+      first = either(j) ? 1.0 : 0.0;
+    see(t.cutter[i], first * length);
+    if (first < 1.0) see(t.cutter[j], (1.0 - first) * length);
+  }
+}
+
 /// Returns the length of the root curve without its set-in parts, because those are welded around
 /// their hole.
 template <class Table>
 [[nodiscard]] double welded_length(const bevel::TableSpec& spec, const Table& t) {
-  const auto set_in = [&](std::size_t row) {
-    const auto& stated = bevel::stated_joint(spec, t.cutter[row]);
-    return stated && stated->kind == joint::JointKind::set_in;
-  };
   double out = 0.0;
   bool whole = true;
-  for (std::size_t i = 0; i < t.length.size(); ++i)
-    if (set_in(i))
+  each_root_stretch(spec, t, [&](std::size_t partner, double length) {
+    const auto& stated = bevel::stated_joint(spec, partner);
+    if (stated && stated->kind == joint::JointKind::set_in)
       whole = false;
     else
-      out += (i + 1 < t.length.size() ? t.length[i + 1] : t.length_total) - t.length[i];
+      out += length;
+  });
   return whole ? t.length_total : out;
 }
 

@@ -9,6 +9,7 @@
 #include "api/wire/answer_text.hpp"
 #include "api/wire/frame_names.hpp"
 #include "api/wire/joint_names.hpp"
+#include "core/part/cut_edges.hpp"
 
 namespace tubecut::api {
 namespace {
@@ -23,23 +24,23 @@ struct Seam {
 
 /// Length of the root curve along one partner.
 template <class Table>
-double along(const Table& t, std::size_t cutter) {
+double along(const bevel::TableSpec& spec, const Table& t, std::size_t cutter) {
   double out = 0.0;
-  for (std::size_t i = 0; i < t.length.size(); ++i)
-    if (t.cutter[i] == cutter)
-      out += (i + 1 < t.length.size() ? t.length[i + 1] : t.length_total) - t.length[i];
+  part::each_root_stretch(spec, t, [&](std::size_t partner, double length) {
+    if (partner == cutter) out += length;
+  });
   return out;
 }
 
 /// Length along one partner, and volume of the groove.
 template <class End>
 std::pair<double, double> seam_of(const End& end, std::size_t cutter) {
-  return {along(end.own, cutter), end.groove_volume};
+  return {along(end.spec, end.own, cutter), end.groove_volume};
 }
 /// The weld of an end with tabs runs along its shoulder.
 template <>
 std::pair<double, double> seam_of(const part::SectionEnd& end, std::size_t cutter) {
-  return {along(end.shoulder ? *end.shoulder : end.own, cutter), end.groove_volume};
+  return {along(end.spec, end.shoulder ? *end.shoulder : end.own, cutter), end.groove_volume};
 }
 
 template <class T>

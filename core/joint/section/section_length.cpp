@@ -17,7 +17,8 @@ constexpr double kWidestTurn = 5.0 * kRadPerDeg;  // of the normal, within one r
 constexpr double kWidestShare = 1.0 / 144.0;      // of the girth, within one rule on a flat
 constexpr double kStep = 0.25;                    // of the distance to an event, from part to part
 constexpr int kSteps = 14;
-constexpr double kSide = 1e-9;  // of a length: on which side of a border
+constexpr double kSameEvent = 1e-9;  // mm: two places so near are one
+constexpr double kSide = 1e-9;       // of a length: on which side of a border
 
 /// Lobatto's rule and Kronrod's extension of it. Where a box's face goes on as its corner the slope
 /// has a bend, however near to an end of the part: both rules look at the ends.
@@ -75,39 +76,43 @@ class Walk {
     return integrate(along, from, to, kNegligible * girth_, kHalvings);
   }
 
-  [[nodiscard]] double chord(std::size_t cutter, double from, double to) const {
-    return elementary::hypot(to - from, contour_.height(cutter, contour_.curve.at(to)) -
-                                            contour_.height(cutter, contour_.curve.at(from)));
+  /// From a place to an event, whose own height on this side holds: a generator that runs within a
+  /// flat side of the partner has none of its own.
+  [[nodiscard]] double chord(std::size_t cutter, double from, double event, double z) const {
+    return elementary::hypot(event - from, z - contour_.height(cutter, contour_.curve.at(from)));
   }
 
   /// Towards an event the slope may grow as the inverse root of the distance to a silhouette that
   /// lies there or a hair beyond: parts that shrink with the distance, and a chord at last.
-  [[nodiscard]] double length_towards(std::size_t cutter, double from, double event) const {
+  [[nodiscard]] double length_towards(std::size_t cutter, double from, double event,
+                                      double z) const {
     double sum = 0.0, at = from;
     for (int k = 0; k < kSteps; ++k) {
       const double next = event + kStep * (at - event);
       sum += std::abs(smooth_length(cutter, std::min(at, next), std::max(at, next)));
       at = next;
     }
-    return sum + chord(cutter, at, event);
+    return sum + chord(cutter, at, event, z);
   }
 
   [[nodiscard]] double part_length(const SectionSegment& segment, double from, double to) const {
-    const bool first = from <= segment.from && steep_at(segment.from);
-    const bool last = to >= segment.to && steep_at(segment.to);
+    const auto* begin = from <= segment.from ? steep_at(segment.from) : nullptr;
+    const auto* end = to >= segment.to ? steep_at(segment.to) : nullptr;
+    const bool first = begin != nullptr, last = end != nullptr;
     const double middle = first && last ? 0.5 * (from + to) : first ? to : from;
     if (!first && !last) return smooth_length(segment.cutter, from, to);
     double sum = 0.0;
-    if (first) sum += length_towards(segment.cutter, middle, from);
-    if (last) sum += length_towards(segment.cutter, middle, to);
+    if (first) sum += length_towards(segment.cutter, middle, from, begin->z_to);
+    if (last) sum += length_towards(segment.cutter, middle, to, end->z_from);
     return sum;
   }
 
-  /// Is there an event here that is not only a seam?
-  [[nodiscard]] bool steep_at(double s) const {
-    return std::ranges::any_of(contour_.events, [&](const SectionEvent& event) {
+  /// The event here that is not only a seam.
+  [[nodiscard]] const SectionEvent* steep_at(double s) const {
+    const auto found = std::ranges::find_if(contour_.events, [&](const SectionEvent& event) {
       return event.kind != SectionEventKind::seam && (event.s == s || event.s + girth_ == s);
     });
+    return found == contour_.events.end() ? nullptr : &*found;
   }
 
   const SectionContour& contour_;
@@ -144,7 +149,13 @@ std::vector<double> lengths_along(const SectionContour& contour, std::span<const
     asked = to;
     out.push_back(total);
   };
-  for (const double s : places) advance(s);
+  // A place that was an event's on another outline may come back as one a rounding before it.
+  const auto at_event = [&](double s) {
+    const auto near = std::ranges::find_if(
+        contour.events, [&](const auto& event) { return std::abs(event.s - s) <= kSameEvent; });
+    return near == contour.events.end() ? s : near->s;
+  };
+  for (const double s : places) advance(at_event(s));
   advance(girth);
   return out;
 }
