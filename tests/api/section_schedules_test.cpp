@@ -232,7 +232,7 @@ TEST(PartSchedules, TinyOpeningsAreFollowedRound) {
   const auto refused = post(kSchedules, job(3000.0, 0.3));
   ASSERT_TRUE(refused.outcome.error);
   EXPECT_EQ(text(refused.body, "errors/0/pointer"), "/motion/eps_tip_mm");
-  EXPECT_NEAR(number(refused.body, "errors/0/limit"), 0.1 * M_PI * 0.8, 0.01);
+  EXPECT_NEAR(number(refused.body, "errors/0/limit"), 0.1 * M_PI * 0.8, 0.02);  // longer round
 }
 
 /// A window begins in the middle of a side; by rounding, that is no second point there.

@@ -280,6 +280,9 @@ function at(points: {[name: string]: number[]}, name: string, deg: number): numb
   return b > a ? z[i] + ((turn - a) / (b - a)) * (next - z[i]) : z[i];
 }
 
+/** Where the kerf ends beyond a place of the beam's axis: half of it along the tube, across a beam that leans by b. */
+export const beyondKerf = (torch: number, b: number, kerf: number, way: 1 | -1) => torch + (way * 0.5 * kerf) / Math.cos(b);
+
 /** The lengths of a part by their names. */
 export const ownLengths = (ends: {[side in Side]: Body}, length: number, tip: number, throat: number, blank: number) =>
   [
@@ -307,15 +310,13 @@ function checkFigures(
   const lengths = result.lengths as Numbers;
   const tip = Math.max(...both(e)) - Math.min(...both(s));
   const throat = Math.min(...both(e)) - Math.max(...both(s));
-  // The far border of the kerf: as far beyond the torch's axis again as the finished line, prolonged past a land, lies before it.
-  const border = (points: {[name: string]: number[]}) =>
-    col(points, 'z_outer_mm').flatMap((z, i) => {
-      const bore = z - (R - r) * Math.tan(col(points, 'b_deg')[i] * RAD);
-      return [2 * col(points, 'torch_inner_mm')[i] - bore, 2 * col(points, 'torch_outer_mm')[i] - z];
-    });
+  const border = (points: {[name: string]: number[]}, way: 1 | -1) =>
+    col(points, 'b_deg').flatMap((b, i) =>
+      ['torch_inner_mm', 'torch_outer_mm'].map((name) => beyondKerf(col(points, name)[i], b * RAD, num(request.kerf_mm), way)),
+    );
   const spare = (request.allowances ?? {}) as Numbers;
   scope.same('datum_z', Math.min(...both(s)), 0, fine, 'mm');
-  const blank = Math.max(...border(e)) - Math.min(...border(s)) + num(spare.clamping_mm) + num(spare.facing_mm);
+  const blank = Math.max(...border(e, 1)) - Math.min(...border(s, -1)) + num(spare.clamping_mm) + num(spare.facing_mm);
   for (const [name, own] of ownLengths(ends, length, tip, throat, blank)) {
     scope.same('lengths', lengths[name], own, 3 * fine, 'mm', name);
     scope.covers(`lengths/${name}`);

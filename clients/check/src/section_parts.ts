@@ -2,7 +2,7 @@
 import type {Columns} from './bevel.js';
 import {beamSpans, checkCutouts} from './cutouts.js';
 import {boreOf, checkSection, girth, outsideOf, walk} from './outline.js';
-import {checkClocking, cutOfEnd, ownLengths} from './parts.js';
+import {beyondKerf, checkClocking, cutOfEnd, ownLengths} from './parts.js';
 import type {Scope} from './report.js';
 import type {SectionCut} from './section_curves.js';
 import {between, checkSectionEnd, heightAt, type Row, rowsOfSection} from './section_ends.js';
@@ -206,19 +206,16 @@ function checkFigures(
   const lengths = result.lengths as unknown as Numbers;
   const fine = 2e-10 * (1 + length / 1000);
   const [tip, throat] = [Math.max(...e) - Math.min(...s), Math.min(...e) - Math.max(...s)];
-  const border = (side: Side) =>
-    rows[side].flatMap(({edges, torch, wall}, i) => {
+  const border = (side: Side, way: 1 | -1) =>
+    rows[side].flatMap(({torch}, i) => {
       const b = ((((result.ends as Body)[side] as Body).points as unknown as Columns).b_deg as number[])[i] * RAD;
-      const out = edges[edges.length - 1][1];
-      return [2 * torch[0] - (out - wall * Math.tan(b)), 2 * torch[1] - out];
+      return torch.map((z) => beyondKerf(z, b, num(request.kerf_mm), way));
     });
   const spare = (request.allowances ?? {}) as unknown as Numbers;
-  const blank = Math.max(...border('finish')) - Math.min(...border('start')) + num(spare.clamping_mm) + num(spare.facing_mm);
+  const blank = Math.max(...border('finish', 1)) - Math.min(...border('start', -1)) + num(spare.clamping_mm) + num(spare.facing_mm);
   const ends = result.ends as {[side in Side]: Body};
   scope.same('datum_z', Math.min(...s), 0, fine, 'mm');
-  const tabs = (['start', 'finish'] as const).some((side) => list(((request.ends as Body)[side] as Body).end_tabs).length > 0);
   for (const [name, own] of ownLengths(ends, length, tip, throat, blank)) {
-    if (tabs && name === 'blank_mm') continue; // the beam steps next to the tabs
     scope.same('lengths', lengths[name], own, 5 * fine, 'mm', name);
     scope.covers(`lengths/${name}`);
   }
