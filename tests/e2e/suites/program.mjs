@@ -18,7 +18,7 @@ async function previewed({browser, origin, service}, name, {width, theme}, more 
   await page.locator('#program li').first().waitFor();
   const body = readFileSync(new URL(`../../../examples/parts/${name}.json`, import.meta.url));
   const {text} = await service.ask(`/v1/parts?format=gcode&speed_mm_min=600&${new URLSearchParams(options)}`, {body});
-  const [, length, seconds] = /, ([\d.]+) mm in ([\d.]+) s with the delays/.exec(text);
+  const [, length, seconds] = /, ([\d.]+) mm in ([\d.]+) s with the way down/.exec(text);
   assert.ok(Math.abs(parseFloat(await page.locator('#program-time').innerText()) - seconds) < 0.2);
   assert.ok((await page.locator('#program figcaption').innerText()).includes(`${Math.round(length)}`.slice(0, -1)));
   const after = await pixels(page);
