@@ -138,7 +138,7 @@ double distance_of_ends(const Json& member) {
 /// Metric lengths written in inches: 300 mm as 11.811. A single one may be chance.
 class MetricInInches {
  public:
-  /// `given`: it is a coordinate or a size beside one, which no default is.
+  /// `given`: it is stated in the request, as no default is.
   void check(double value, const std::string& path, bool given) {
     const double mm = std::abs(value);
     if (is_near(mm, mm < kTyped ? kFine : kTyped, 1e-9)) {

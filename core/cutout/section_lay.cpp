@@ -14,7 +14,7 @@ using section::Station;
 
 constexpr double kQuarter = 0.5 * kPi;
 constexpr double kEdgeOn = 1e-12;     // of a direction: a flat seen along itself
-constexpr double kBeside = 1e-9;      // mm, from a break
+constexpr double kOffBreak = 1e-9;    // mm, from a break
 constexpr double kFound = 1e-13;      // of a way that is halved
 constexpr double kLeastShare = 1e-9;  // of a segment
 
@@ -346,14 +346,14 @@ Chain divided(const Chain& chain, const std::vector<double>& breaks) {
 
 double inside(const Segment& s, double b) {
   const auto box = bounds({s});
-  const double low = box.least.y() + kBeside, high = box.most.y() - kBeside;
+  const double low = box.least.y() + kOffBreak, high = box.most.y() - kOffBreak;
   return low < high ? std::clamp(b, low, high) : b;
 }
 
 namespace {
 
-/// The shares within an arc where it turns back across: beside them b may come near to a break that
-/// no segment crosses.
+/// The shares within an arc where it turns back across: next to them b may come near to a break
+/// that no segment crosses.
 std::vector<double> turns_back(const Segment& s) {
   std::vector<double> out;
   if (!s.arc()) return out;

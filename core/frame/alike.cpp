@@ -64,19 +64,19 @@ std::vector<double> between_events(const FormWall::Line& one, const FormWall::Li
 }
 
 /// Compares as curves where one line has jumped at a phase and the other has not yet: they are as
-/// far apart there as their jumps are around the tube, and along it as beside them.
+/// far apart there as their jumps are around the tube, and along it as next to them.
 void follow_jumps(const FormWall::Line& one, const FormWall::Line& other, std::vector<double>& r,
                   std::vector<double>& a) {
   const auto n = a.size();
   const auto apart = between_events(one, other);
-  const auto beside = [&](std::size_t i, std::size_t step) {
+  const auto neighbour = [&](std::size_t i, std::size_t step) {
     auto out = (i + step) % n;
     while (out != i && !std::isnan(apart[out])) out = (out + step) % n;
     return out;
   };
   for (std::size_t i = 0; i < n; ++i) {
     if (std::isnan(apart[i])) continue;
-    const double along = 0.5 * (a[beside(i, n - 1)] + a[beside(i, 1)]),
+    const double along = 0.5 * (a[neighbour(i, n - 1)] + a[neighbour(i, 1)]),
                  round = one.radius * apart[i];
     if (std::abs(a[i] - along) <= std::max(round, kLeastJump)) continue;
     a[i] = along;

@@ -80,12 +80,12 @@ struct Leaving {
   double s = 0.0, way = 0.0;
 };
 /// Returns where a line that leaves the square corner beyond a face's flat leaves the arc; one that
-/// passes beside the arc counts as leaving it where it is nearest, so that the place does not jump.
+/// misses the arc counts as leaving it where it is nearest, so that the place does not jump.
 Leaving leaving_corner(const section::Curve& outer, int corner, const AxisLine& line) {
   const Eigen::Vector2d d = line.direction.head<2>(), u = d.normalized();
   const Eigen::Vector2d from = line.point.head<2>() - outer.corner_centre(corner);
-  const double along = from.dot(u), beside = from.squaredNorm() - along * along;
-  const double way = std::sqrt(std::max(0.0, outer.corner() * outer.corner() - beside)) - along;
+  const double along = from.dot(u), across = from.squaredNorm() - along * along;
+  const double way = std::sqrt(std::max(0.0, outer.corner() * outer.corner() - across)) - along;
   const Eigen::Vector2d at = from + way * u, n = section::Curve::face_normal(corner);
   const double turn = elementary::atan2(n.x() * at.y() - n.y() * at.x(), n.dot(at));
   return {outer.on_corner(corner, std::clamp(turn, 0.0, 0.5 * kPi)), way / d.norm()};
@@ -99,8 +99,8 @@ Mark mark_of(const joint::Member& branch, joint::End end, const MemberFrame& fra
   const Vector3d& p = line.point;
   const double flat = d.x() * d.x() + d.y() * d.y();
   const double along = p.x() * d.x() + p.y() * d.y();
-  const double beside = p.x() * p.x() + p.y() * p.y() - radius * radius;
-  const double square = std::max(0.0, along * along - flat * beside);
+  const double outside = p.x() * p.x() + p.y() * p.y() - radius * radius;
+  const double square = std::max(0.0, along * along - flat * outside);
   const Vector3d out = p + (std::sqrt(square) - along) / flat * d;
   return {Mark::Kind::partner, branch.name, math::whole_turn(elementary::atan2(out.y(), out.x())),
           out.z(), out.z()};

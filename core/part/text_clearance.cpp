@@ -115,7 +115,7 @@ class EndOfOutside {
     const double most =
         clearance_ + (finish_ ? text.box.most.y() - extreme_ : extreme_ - text.box.least.y());
     if (most <= kRounding) return 0.0;
-    const auto line = line_beside(text);
+    const auto line = line_near(text);
     if (is_clear(text, line, 0.0)) return 0.0;
     double low = 0.0, high = most;
     for (int i = 0; i < 60 && high - low > kRounding; ++i) {
@@ -126,7 +126,7 @@ class EndOfOutside {
   }
 
  private:
-  [[nodiscard]] WallLine line_beside(const TextLines& text) const {
+  [[nodiscard]] WallLine line_near(const TextLines& text) const {
     const double from = std::floor((text.box.least.x() - clearance_) / girth_);
     std::vector<WallPoint> points;
     // Ascending, so that two copies meet at the datum line.

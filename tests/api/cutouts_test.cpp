@@ -119,7 +119,7 @@ TEST(Cutouts, ARefusedSideOfARectangleIsOneError) {
 
 /// The default of a rectangle's corners is calculated from the tube, the place and the pattern; of
 /// refused ones it is not.
-TEST(Cutouts, ARefusedTubeOrPatternIsItsOwnErrorBesideARectangle) {
+TEST(Cutouts, ARefusedTubeOrPatternIsItsOwnErrorWithARectangle) {
   const auto refused = [](const std::string& target, const std::string& pattern) {
     const auto body =
         R"({"target": )" + target +

@@ -9,7 +9,7 @@
 namespace tubecut::bevel::detail {
 namespace {
 
-constexpr double kBeside = 1e-4;       // rad, of the place where a kink's side is looked at
+constexpr double kOff = 1e-4;          // rad, of the place where a kink's side is looked at
 constexpr double kSilhouette = 1e-12;  // axial part of a normal that is none
 constexpr double kUndefined = 1e-4;    // radial and axial parts of a normal that give no angle
 
@@ -26,9 +26,9 @@ struct RootNormal {
   double cos, sin;
 };
 RootNormal root_normal(const SectionSetup& g, const SectionRow& row, std::size_t cutter,
-                       double beside) {
+                       double offset) {
   auto own = g.root_station(row.at);
-  if (beside != 0.0) own = g.root().curve.at(own.s + beside);
+  if (offset != 0.0) own = g.root().curve.at(own.s + offset);
   // Concentric corners have one normal, where the bore has no corner radius too.
   if (!g.root_outside() && g.wall.concentric()) {
     own.normal = row.at.normal;
@@ -60,10 +60,10 @@ double input_of(const TableSpec& spec, const SectionPoint& p) {
 }
 
 SectionPoint point(const SectionSetup& g, const SectionRow& row, std::size_t cutter,
-                   double beside) {
+                   double offset) {
   const bool square = std::holds_alternative<SquareCut>(g.spec.groove);
   const bool set_in = is_set_in(g.spec, cutter) && !g.spec.untilted;
-  const auto at = root_normal(g, row, cutter, beside);
+  const auto at = root_normal(g, row, cutter, offset);
   SectionPoint out;
   // The dihedral counts from the row's own outside, gamma along the root.
   const auto& n = at.normal;
@@ -95,7 +95,7 @@ SectionPoint point(const SectionSetup& g, const SectionRow& row, std::size_t cut
 }
 
 /// Returns true if the partner's normal lies along the girth, as where a generator runs within a
-/// flat side: rounding alone would give its angles and what it requires, and the limits beside
+/// flat side: rounding alone would give its angles and what it requires, and the limits near
 /// hold.
 bool undefined(const SectionSetup& g, const SectionRow& row, std::size_t cutter) {
   const auto at = root_normal(g, row, cutter, 0.0);
@@ -104,8 +104,8 @@ bool undefined(const SectionSetup& g, const SectionRow& row, std::size_t cutter)
 }
 
 /// A jump's row, moved to its own side.
-SectionRow moved(const SectionSetup& g, SectionRow row, double beside) {
-  row.at = g.wall.outer().at(row.at.s + row.side * beside);
+SectionRow moved(const SectionSetup& g, SectionRow row, double offset) {
+  row.at = g.wall.outer().at(row.at.s + row.side * offset);
   row.across = g.wall.across(row.at);
   row.z = g.root().height(row.before, g.root_station(row.at));
   row.bore_z = g.root_outside() ? joint::contact_at(g.inner, row.across.bore).z : row.z;
@@ -117,16 +117,16 @@ SectionRow moved(const SectionSetup& g, SectionRow row, double beside) {
 void fill_row(const SectionSetup& g, SectionRow& row) {
   row.bore_z = g.root_outside() ? joint::contact_at(g.inner, row.across.bore).z : row.z;
   row.cutter = row.before;
-  const double beside = kBeside * std::max(g.root().curve.corner(), 1.0);
+  const double offset = kOff * std::max(g.root().curve.corner(), 1.0);
   if (!row.corner || row.jump) {
     const bool off = row.jump && (undefined(g, row, row.before) || undefined(g, row, row.other));
-    row.point = point(g, off ? moved(g, row, beside) : row, row.before, 0.0);
+    row.point = point(g, off ? moved(g, row, offset) : row, row.before, 0.0);
     return;
   }
-  // The side of an event with the larger input counts; a kink's sides are those beside it.
+  // The side of an event with the larger input counts; a kink's sides are those next to it.
   const bool kink = row.before == row.after;
   const auto side = [&](std::size_t cutter, double way) {
-    return point(g, row, cutter, kink || undefined(g, row, cutter) ? way * beside : 0.0);
+    return point(g, row, cutter, kink || undefined(g, row, cutter) ? way * offset : 0.0);
   };
   const auto first = side(row.before, -1.0), second = side(row.after, 1.0);
   row.point = first.input >= second.input ? first : second;

@@ -15,9 +15,9 @@ namespace {
 
 using section::Station;
 
-constexpr double kSamePlace = 1e-9;   // mm: two stops so near are one
-constexpr double kSameRow = 1e-6;     // mm
-constexpr double kBesideJump = 1e-4;  // mm
+constexpr double kSamePlace = 1e-9;  // mm: two stops so near are one
+constexpr double kSameRow = 1e-6;    // mm
+constexpr double kOffJump = 1e-4;    // mm
 constexpr double kWidestTurn = 10.0 * kRadPerDeg;
 constexpr double kWidestShare = 1.0 / 36.0;
 constexpr int kProbes = 7, kHalvings = 40;
@@ -121,7 +121,7 @@ class Maker {
       // Where the other edge steps alone, the cut is as before on one side and as after on the
       // other.
       if (!of_root && event.kind == joint::SectionEventKind::jump)
-        stops_.insert(stops_.end(), {s - kBesideJump, s + kBesideJump});
+        stops_.insert(stops_.end(), {s - kOffJump, s + kOffJump});
       if (of_root && event.kind != joint::SectionEventKind::seam)
         root_events_.push_back({turned(s), &event});
     }

@@ -46,7 +46,7 @@ class Maker {
     for (int round = 0; by_tolerance && spec_.kerf > 0.0 && round < kTorchRounds; ++round) {
       auto more = detail::places_where_drop_bends(surface_, spec_, out_);
       if (round == 0)
-        for (const double s : detail::places_beside_steps(surface_, spec_, out_)) more.push_back(s);
+        for (const double s : detail::places_of_steps(surface_, spec_, out_)) more.push_back(s);
       if (more.empty()) break;
       TRY(make_rows(std::move(more)));
       TRY(make_surface());

@@ -222,15 +222,15 @@ std::vector<double> places_where_drop_bends(const SectionSurface& surface, const
   return out;
 }
 
-std::vector<double> places_beside_steps(const SectionSurface& surface, const TableSpec& spec,
-                                        const SectionTable& table) {
+std::vector<double> places_of_steps(const SectionSurface& surface, const TableSpec& spec,
+                                    const SectionTable& table) {
   std::vector<double> out;
   const double girth = table.girth, reach = surface.beam_reach(spec.kerf);
   const auto turned = [girth](double s) { return s - girth * std::floor(s / girth); };
   for (std::size_t i = 0; i < table.at.size() && !stopped(); ++i) {
     const double step = table.z_outer[surface.next(i)] - table.z_outer[i];
     if (surface.width(i) > kStepWidth || !(std::abs(step) > kHighStep)) continue;
-    // Beside the higher row the axis runs past the step's own wall.
+    // Next to the higher row the axis runs past the step's own wall.
     const double way = step > 0.0 ? 1.0 : -1.0;
     const double from = table.at[step > 0.0 ? surface.next(i) : i].s;
     const auto passes = [&](double off) {

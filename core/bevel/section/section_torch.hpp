@@ -14,12 +14,11 @@ inline constexpr double kNarrow = 1e-4;  // mm: no rows nearer to each other
                                                           const TableSpec& spec,
                                                           const SectionTable& table);
 
-/// Returns the places (s) beside the steps of the finished edge between which the torch's axis
+/// Returns the places (s) at the steps of the finished edge between which the torch's axis
 /// takes the step: the beam passes the step's wall at the first of each two, and is past it at the
 /// second. Incomplete if cancelled.
-[[nodiscard]] std::vector<double> places_beside_steps(const SectionSurface& surface,
-                                                      const TableSpec& spec,
-                                                      const SectionTable& table);
+[[nodiscard]] std::vector<double> places_of_steps(const SectionSurface& surface,
+                                                  const TableSpec& spec, const SectionTable& table);
 
 /// Fills the torch's axis by row and `torch_line`. The drop is straight from row to row, so rows
 /// are lowered if it would fall short between them.

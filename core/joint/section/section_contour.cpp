@@ -22,7 +22,7 @@ constexpr double kUpright = 1e-7;       // axial part of a normal: the height ha
 constexpr double kTie = 1e-12;          // of radius + |z|, rounding of one height
 constexpr double kSamePlace = 1e-11;    // of the girth / 2 pi: closer places are one
 constexpr double kScanPlaces = 1440.0;  // of a girth
-constexpr double kBeside = 1e-9;        // of the girth
+constexpr double kOffSeam = 1e-9;       // of the girth
 
 using Label = std::optional<std::size_t>;
 
@@ -53,7 +53,7 @@ class Divider {
   [[nodiscard]] Result<void> check_closed() const;
   Result<void> check_hidden() {
     for (const auto& [cutter, s] : hidden_) {
-      const double off = kBeside * curve_.girth();
+      const double off = kOffSeam * curve_.girth();
       if (label_at(s - off) != cutter && label_at(s + off) != cutter) continue;
       return fail({.code = ErrorCode::unsupported_combination,
                    .member = "cutters/" + std::to_string(cutter),

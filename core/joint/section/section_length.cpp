@@ -64,11 +64,11 @@ class Walk {
     const auto at = contour_.curve.at(s);
     const double slope = contour_.hit(cutter, at).z_dphi;
     if (std::isfinite(slope)) return elementary::hypot(1.0, slope);
-    const double beside = kSide * girth_;
+    const double offset = kSide * girth_;
     const auto height = [&](double place) {
       return contour_.height(cutter, contour_.curve.at(place));
     };
-    return elementary::hypot(1.0, (height(s + beside) - height(s - beside)) / (2.0 * beside));
+    return elementary::hypot(1.0, (height(s + offset) - height(s - offset)) / (2.0 * offset));
   }
 
   [[nodiscard]] double smooth_length(std::size_t cutter, double from, double to) const {

@@ -222,18 +222,17 @@ TEST(Angles, CornerOfEqualTubes) {
   EXPECT_EQ(corners, 2);
 }
 
-// Where the surfaces touch, B is the limit of places beside along the tube: tau.
-TEST(Angles, TouchingSurfacesHaveTheLimitBeside) {
-  constexpr double kBesideTouch = 1e-6;
+// Where the surfaces touch, B is the limit of its neighbours along the tube: tau.
+TEST(Angles, TouchingSurfacesHaveTheLimitNearby) {
+  constexpr double kOffTouch = 1e-6;
   for (const GrooveRule& rule : {GrooveRule{NoGroove{}}, GrooveRule{HalfDihedral{}},
                                  GrooveRule{FixedGroove{Angle::deg(20)}}})
     for (const double radial : {1.0, -1.0}) {
       const Rule of(rule, Dihedral::weld_side);
       const double touching = of.angles({radial, 0.0, 0.0}).b;
-      const double beside =
-          of.angles({radial * std::cos(kBesideTouch), 0.0, std::sin(kBesideTouch)}).b;
+      const double nearby = of.angles({radial * std::cos(kOffTouch), 0.0, std::sin(kOffTouch)}).b;
       EXPECT_NEAR(touching, of.angles({radial, 0.0, 0.0}).tau, 1e-12);
-      EXPECT_NEAR(touching, beside, 10.0 * kBesideTouch);
+      EXPECT_NEAR(touching, nearby, 10.0 * kOffTouch);
       Angles many;
       joint::Normals one;
       one.radial = {radial};
