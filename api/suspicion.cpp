@@ -25,8 +25,8 @@ constexpr double kFineAngleDeg = 5;
 constexpr double kLastBits = 4e-15;  // rad: of a product by pi / 180
 constexpr double kShortest = 0.05;   // of its diameter: a tube shorter than that is a ring
 constexpr double kTyped = 0.1;       // mm: lengths are designed in multiples of it
-constexpr double kFine = 0.01;       // mm: tolerances below kTyped, among them defaults, are too
-constexpr double kDesigned = 0.5;    // mm: nearly all of a metric design are multiples of it
+constexpr double kFine = 0.01;  // mm: below kTyped, tolerances and their defaults are typed finer
+constexpr double kDesigned = 0.5;  // mm: nearly all of a metric design are multiples of it
 constexpr double kRounding = 0.5e-3 * kMmPerInch;      // of inches to three decimals
 constexpr std::size_t kMostRound = 20, kMostOdd = 40;  // that are counted
 constexpr std::size_t kEnough = 3;  // lengths that differ; by chance one is as near in twenty

@@ -166,6 +166,42 @@ TEST(Cutouts, FromTheFinishIsTheLengthLessFromTheStart) {
   EXPECT_NEAR(number(finish.body, "result/cutouts/0/instances/0/phi_deg"), 40.0, 1e-9);
 }
 
+/// A row along and round the tube, of more than a turn, is as many cut-outs stated one by one: in
+/// place, in mass, and as cuts of the program.
+TEST(Cutouts, AHelicalRowIsItsHolesOneByOne) {
+  const auto hole = [](int k, const std::string& more) {
+    return R"({"id": "h)" + std::to_string(k) +
+           R"(", "shape": {"kind": "circle", "diameter_mm": 8}, "at": {"z_mm": )" +
+           std::to_string(60 + 25 * k) + R"(, "phi_deg": )" + std::to_string(30.0 + 137.5 * k) +
+           "}" + more + "}";
+  };
+  std::string singles = hole(0, "");
+  for (int k = 1; k < 10; ++k) singles += ", " + hole(k, "");
+  const auto row = part_with(list(hole(
+      0, R"(, "pattern": {"kind": "linear", "count": 10, "pitch_mm": 25, "pitch_deg": 137.5})")));
+  const auto made = post(kParts, row), apart = post(kParts, part_with(list(singles)));
+  ASSERT_FALSE(made.outcome.error) << made.outcome.body.substr(0, 500);
+  ASSERT_FALSE(apart.outcome.error) << apart.outcome.body.substr(0, 500);
+  EXPECT_NEAR(number(made.body, "result/lengths/mass_kg"),
+              number(apart.body, "result/lengths/mass_kg"), 1e-12);
+  for (int k = 0; k < 10; ++k) {
+    const auto of_row = "result/cutouts/0/instances/" + std::to_string(k);
+    const auto single = "result/cutouts/" + std::to_string(k) + "/instances/0";
+    const double turned =
+        number(made.body, of_row + "/phi_deg") - number(apart.body, single + "/phi_deg");
+    EXPECT_NEAR(std::remainder(turned, 360.0), 0.0, 1e-9) << k;
+    EXPECT_NEAR(number(made.body, of_row + "/z_mm"), number(apart.body, single + "/z_mm"), 1e-9);
+  }
+  const auto body = dump(row);
+  const auto program = post(kParts, std::string_view(body), "format=gcode&speed_mm_min=600");
+  ASSERT_FALSE(program.outcome.error) << program.outcome.body.substr(0, 500);
+  std::size_t cuts = 0;
+  for (auto at = program.outcome.body.find("(cut: cut-out h0"); at != std::string::npos;
+       at = program.outcome.body.find("(cut: cut-out h0", at + 1))
+    ++cuts;
+  EXPECT_EQ(cuts, 10u);
+}
+
 TEST(Cutouts, AStraightToolPassesWhereTheTorchDoesNotLean) {
   for (const char* tilt : {"axial", "none"}) {
     const auto made = post(
